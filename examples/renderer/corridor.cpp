@@ -11,12 +11,12 @@ constexpr int kSigns = 18;
 
 void add_shell(Scene& scene, const Walls& walls, std::uint64_t seed) {
   const auto own = [seed](std::uint64_t k) { return hash(seed, 100 + k); };
-  scene.add(walls.front, plaster(walls.front.width, walls.front.height, 170.0, 1.0, own(0)), true);
-  scene.add(walls.left, bricks(walls.left.width, walls.left.height, 125.0, own(1)), true);
-  scene.add(walls.right, plaster(walls.right.width, walls.right.height, 160.0, 1.1, own(2)), true);
-  scene.add(walls.back, plaster(walls.back.width, walls.back.height, 160.0, 0.8, own(3)), true);
-  scene.add(walls.floor, tiles(walls.floor.width, walls.floor.height, 0.4, 120.0, own(4)), true);
-  scene.add(walls.ceiling, panels(walls.ceiling.width, walls.ceiling.height, 180.0, own(5)), true);
+  scene.add(walls.front, later(plaster, walls.front.width, walls.front.height, 170.0, 1.0, own(0)), true);
+  scene.add(walls.left, later(bricks, walls.left.width, walls.left.height, 125.0, own(1)), true);
+  scene.add(walls.right, later(plaster, walls.right.width, walls.right.height, 160.0, 1.1, own(2)), true);
+  scene.add(walls.back, later(plaster, walls.back.width, walls.back.height, 160.0, 0.8, own(3)), true);
+  scene.add(walls.floor, later(tiles, walls.floor.width, walls.floor.height, 0.4, 120.0, own(4)), true);
+  scene.add(walls.ceiling, later(panels, walls.ceiling.width, walls.ceiling.height, 180.0, own(5)), true);
 }
 
 }  // namespace
@@ -30,7 +30,8 @@ Scene make_corridor(std::uint64_t seed) {
   std::uint64_t k = 500;
   const auto hang = [&](const Rectangle& wall, double s, double t, double width, double height) {
     ++k;
-    scene.add(on(wall, s, t, width, height, 0.015), picture(width, height, static_cast<int>(k % 4), hash(seed, k)));
+    scene.add(on(wall, s, t, width, height, 0.015),
+              later(picture, width, height, static_cast<int>(k % 4), hash(seed, k)));
   };
   // Along the walls a sign, a picture and now and then a door, in turn; the right wall's places run from its far end.
   for (int i = 0; i < 7; ++i) {
@@ -47,20 +48,20 @@ Scene make_corridor(std::uint64_t seed) {
     if (i < 6) hang(walls.right, kLength - y - 1.25, 1.2, 0.44, 0.58);
   }
   for (const double s : {3.1, 8.5}) {
-    scene.add(on(walls.left, s - 0.42, 1.85, 0.9, 1.3, 0.01), crate(0.9, 1.3, 120.0, hash(seed, ++k)));
+    scene.add(on(walls.left, s - 0.42, 1.85, 0.9, 1.3, 0.01), later(crate, 0.9, 1.3, 120.0, hash(seed, ++k)));
   }
   for (const double y : {0.7, 12.3}) {
-    scene.add(on(walls.left, y, 1.55, 0.9, 2.1, 0.02), door(0.9, 2.1, 115.0, hash(seed, ++k)));
-    scene.add(on(walls.right, kLength - y, 1.55, 0.9, 2.1, 0.02), door(0.9, 2.1, 105.0, hash(seed, ++k)));
+    scene.add(on(walls.left, y, 1.55, 0.9, 2.1, 0.02), later(door, 0.9, 2.1, 115.0, hash(seed, ++k)));
+    scene.add(on(walls.right, kLength - y, 1.55, 0.9, 2.1, 0.02), later(door, 0.9, 2.1, 105.0, hash(seed, ++k)));
   }
   // The end wall, and two boards across the corridor, below the ceiling.
-  scene.add(on(walls.front, 0.6, 1.55, 0.9, 2.1, 0.02), door(0.9, 2.1, 95.0, hash(seed, ++k)));
+  scene.add(on(walls.front, 0.6, 1.55, 0.9, 2.1, 0.02), later(door, 0.9, 2.1, 95.0, hash(seed, ++k)));
   signs.on_wall(scene, walls.front, 1.75, 0.95, 0.75);
   signs.on_wall(scene, walls.front, 1.75, 1.55, 0.5);
   hang(walls.front, 1.75, 0.45, 0.6, 0.4);
   signs.board(scene, {0.25, 5.6, 2.25}, {0.0, -1.0, -0.1}, 0.75);
   signs.board(scene, {-0.3, 9.4, 2.25}, {0.05, -1.0, -0.1}, 0.75);
-  const auto cardboard = [seed, &k](double w, double h) { return crate(w, h, 130.0, hash(seed, ++k)); };
+  const auto cardboard = [seed, &k](double w, double h) { return later(crate, w, h, 130.0, hash(seed, ++k)); };
   add_box(scene, {-0.98, 6.3, 0.0}, {0.4, 0.5, 0.5}, 0.1, cardboard, cardboard);
   add_box(scene, {1.0, 8.3, 0.0}, {0.38, 0.6, 0.7}, -0.05, cardboard, cardboard);
   add_box(scene, {0.95, 3.6, 0.0}, {0.4, 0.4, 0.45}, 0.2, cardboard, cardboard);

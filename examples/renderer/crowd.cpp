@@ -34,11 +34,11 @@ void add_crowd(Scene& scene, std::uint64_t seed) {
   const auto draw = [&](double low, double high) { return low + (high - low) * unit(hash(seed, 600, ++k)); };
   const auto sides = [&](double w, double h) {
     const double shade = draw(70.0, 170.0);
-    return plaster(w, h, shade, 1.6, hash(seed, 601, k));
+    return later(plaster, w, h, shade, 1.6, hash(seed, 601, k));
   };
   const auto front = [&](double w, double h) {
     const int style = 1 + static_cast<int>(draw(0.0, 3.0));
-    return picture(w, h, style, hash(seed, 602, k));
+    return later(picture, w, h, style, hash(seed, 602, k));
   };
   for (int i = 0; i < 3; ++i) {
     const std::size_t first = scene.surfaces().size();

@@ -114,7 +114,7 @@ void SignPainter::cylinder(Scene& scene, const Vector3<double>& front, const Vec
   const double bare = (6.283185307179586 * radius - paint.width()) / kBareStrips;
   for (int i = 0; i < kBareStrips; ++i)
     scene.add(strip_between(bare * i - start, bare * (i + 1) - start),
-              crate(bare, paint.height(), 120.0, random_.word()));
+              later(crate, bare, paint.height(), 120.0, random_.word()));
   Rectangle chord = strip_between(start + made.plate.text_x, start + made.plate.text_x + made.plate.text_width);
   chord.corner += made.plate.text_y * chord.down;
   chord.height = made.plate.text_height;
@@ -135,7 +135,7 @@ void SignPainter::board(Scene& scene, const Vector3<double>& centre, const Vecto
   const Rectangle plate = facing(centre, towards, width, height, roll);
   scene.add(plate, made.plate.paint);
   scene.add(facing(centre - kPlateThickness * towards.normalized(), -towards, width, height, -roll),
-            crate(width, height, 110.0, random_.word()));
+            later(crate, width, height, 110.0, random_.word()));
   add_text(scene, plate, made);
 }
 

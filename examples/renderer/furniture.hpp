@@ -17,8 +17,8 @@ struct Walls {
 };
 Walls walls_of(double x0, double x1, double y0, double y1, double height);
 
-/// The texture of a side of this width and height (m).
-using Painter = std::function<Canvas(double, double)>;
+/// What paints a side of this width and height (m).
+using Painter = std::function<Paint(double, double)>;
 
 /// A box on the floor: centre of its base at `foot`, size x wide, y deep, z high, turned by `yaw` (radians,
 /// counter-clockwise from above; at 0 the front faces -y). No bottom. Returns its front.

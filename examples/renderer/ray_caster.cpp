@@ -88,8 +88,8 @@ struct SphereSteps {  // of a unit vector
 };
 
 template <class Steps>
-double shade(const Facet& f, const Texture& texture, const Vector3<double>& m, double rho,
-             const Steps& steps) noexcept {
+double shade(const Facet& f, const Texture& texture, const Vector3<double>& m, double rho, const Steps& steps) {
+  texture.be_seen();
   const double texels_x = texture.width() / f.width, texels_y = texture.height() / f.height;  // per metre
   const double depth = 1.0 / rho;
   const double s = f.across.dot(m) * depth, t = f.along.dot(m) * depth;
@@ -102,7 +102,7 @@ double shade(const Facet& f, const Texture& texture, const Vector3<double>& m, d
 
 /// The light on the ray m: of the nearest facet, and where that is a pane, of those behind it.
 template <class Steps>
-double light_on(const std::vector<const Facet*>& candidates, const Vector3<double>& m, const Steps& steps) noexcept {
+double light_on(const std::vector<const Facet*>& candidates, const Vector3<double>& m, const Steps& steps) {
   double light = 0.0, left = 1.0, limit = std::numeric_limits<double>::infinity();
   while (left > 0.0) {
     const Facet* nearest = nullptr;

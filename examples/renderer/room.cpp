@@ -1,5 +1,6 @@
 // The room: 4.8 m x 4.2 m, signs on three walls, on furniture and on slanted boards; the camera moves in its rear half.
 #include <cmath>
+#include <utility>
 
 #include "renderer/furniture.hpp"
 #include "renderer/kinds.hpp"
@@ -12,22 +13,22 @@ constexpr double kPictureLift = 0.015;  // m
 constexpr int kRoomSigns = 12, kSignsBehind = 6;
 
 void add_shell(Scene& scene, const Walls& walls, bool bare, std::uint64_t seed) {
-  const auto wall = [&](const Rectangle& r, const Canvas& paint) { scene.add(r, paint, true); };
+  const auto wall = [&](const Rectangle& r, Paint paint) { scene.add(r, std::move(paint), true); };
   const auto own = [seed](std::uint64_t k) { return hash(seed, 100 + k); };
   if (bare) {
     std::uint64_t k = 0;
     for (const Rectangle* r : {&walls.front, &walls.left, &walls.right, &walls.back, &walls.floor, &walls.ceiling}) {
-      wall(*r, bare_wall(r->width, r->height, k == 4 ? 95.0 : 165.0 + 4.0 * static_cast<double>(k % 3), own(k)));
+      wall(*r, later(bare_wall, r->width, r->height, k == 4 ? 95.0 : 165.0 + 4.0 * static_cast<double>(k % 3), own(k)));
       ++k;
     }
     return;
   }
-  wall(walls.front, plaster(walls.front.width, walls.front.height, 165.0, 1.0, own(0)));
-  wall(walls.left, bricks(walls.left.width, walls.left.height, 110.0, own(1)));
-  wall(walls.right, boards(walls.right.width, walls.right.height, 125.0, true, own(2)));
-  wall(walls.back, plaster(walls.back.width, walls.back.height, 150.0, 0.7, own(3)));
-  wall(walls.floor, boards(walls.floor.width, walls.floor.height, 95.0, false, own(4)));
-  wall(walls.ceiling, panels(walls.ceiling.width, walls.ceiling.height, 175.0, own(5)));
+  wall(walls.front, later(plaster, walls.front.width, walls.front.height, 165.0, 1.0, own(0)));
+  wall(walls.left, later(bricks, walls.left.width, walls.left.height, 110.0, own(1)));
+  wall(walls.right, later(boards, walls.right.width, walls.right.height, 125.0, true, own(2)));
+  wall(walls.back, later(plaster, walls.back.width, walls.back.height, 150.0, 0.7, own(3)));
+  wall(walls.floor, later(boards, walls.floor.width, walls.floor.height, 95.0, false, own(4)));
+  wall(walls.ceiling, later(panels, walls.ceiling.width, walls.ceiling.height, 175.0, own(5)));
 }
 
 void add_pictures(Scene& scene, const Walls& walls, std::uint64_t seed) {
@@ -46,7 +47,7 @@ void add_pictures(Scene& scene, const Walls& walls, std::uint64_t seed) {
   int k = static_cast<int>(seed % 4);
   for (const Place& p : places) {
     const Rectangle r = on(*p.wall, p.s, p.t, p.width, p.height, kPictureLift);
-    scene.add(r, picture(p.width, p.height, k % 4, hash(seed, 200, static_cast<std::uint64_t>(k))));
+    scene.add(r, later(picture, p.width, p.height, k % 4, hash(seed, 200, static_cast<std::uint64_t>(k))));
     ++k;
   }
 }
@@ -57,9 +58,9 @@ struct Furnishing {
 
 Furnishing add_furniture(Scene& scene, std::uint64_t seed) {
   std::uint64_t k = 300;
-  const auto cardboard = [seed, &k](double w, double h) { return crate(w, h, 135.0, hash(seed, ++k)); };
-  const auto dark = [seed, &k](double w, double h) { return boards(w, h, 100.0, true, hash(seed, ++k)); };
-  const auto books = [seed, &k](double w, double h) { return book_shelf(w, h, hash(seed, ++k)); };
+  const auto cardboard = [seed, &k](double w, double h) { return later(crate, w, h, 135.0, hash(seed, ++k)); };
+  const auto dark = [seed, &k](double w, double h) { return later(boards, w, h, 100.0, true, hash(seed, ++k)); };
+  const auto books = [seed, &k](double w, double h) { return later(book_shelf, w, h, hash(seed, ++k)); };
   Furnishing f;
   f.shelf = add_box(scene, {-1.45, 1.93, 0.0}, {0.95, 0.3, 1.75}, 0.0, books, dark);
   f.cabinet = add_box(scene, {0.85, 1.78, 0.0}, {1.1, 0.5, 0.75}, 0.0, dark, dark);

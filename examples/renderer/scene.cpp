@@ -26,6 +26,41 @@ double light_at(const std::vector<Vector3<double>>& lamps, const Vector3<double>
   return light;
 }
 
+Image<std::uint8_t> lit(const Canvas& paint, const Rectangle& rectangle, const std::vector<Vector3<double>>& lamps,
+                        bool corners_darken) {
+  const Vector3<double> normal = rectangle.normal();
+  const Image<float>& from = paint.pixels();
+  Image<std::uint8_t> texture(from.width(), from.height());
+  // Light is smooth: one value in eight texels each way, linear between.
+  constexpr int kStep = 8;
+  const Vector2<double> d = paint.density();
+  const auto light = [&](int i, int j) {
+    const double s = (i + 0.5) / d[0], t = (j + 0.5) / d[1];
+    double l = light_at(lamps, rectangle.at(s, t), normal);
+    if (corners_darken) {
+      for (const double edge : {s, rectangle.width - s, t, rectangle.height - t}) {
+        l *= 1.0 - kEdgeShade * std::exp(-std::max(0.0, edge) / kEdgeWidth);
+      }
+    }
+    return l;
+  };
+  Image<float> lights(from.width() / kStep + 2, from.height() / kStep + 2);
+  for (int j = 0; j < lights.height(); ++j) {
+    for (int i = 0; i < lights.width(); ++i) lights(i, j) = static_cast<float>(light(i * kStep, j * kStep));
+  }
+  for (int j = 0; j < from.height(); ++j) {
+    for (int i = 0; i < from.width(); ++i) {
+      const int a = i / kStep, b = j / kStep;
+      const float x = static_cast<float>(i % kStep) / kStep, y = static_cast<float>(j % kStep) / kStep;
+      const float top = lights(a, b) + x * (lights(a + 1, b) - lights(a, b));
+      const float bottom = lights(a, b + 1) + x * (lights(a + 1, b + 1) - lights(a, b + 1));
+      const float value = from(i, j) * (top + y * (bottom - top));
+      texture(i, j) = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 255.0F)));
+    }
+  }
+  return texture;
+}
+
 }  // namespace
 
 Rectangle facing(const Vector3<double>& centre, const Vector3<double>& towards, double width, double height,
@@ -64,38 +99,14 @@ Vector3<double> Surface::carried(const Vector3<double>& p, double from, double t
   return carrier ? Vector3<double>((*carrier)(to) * ((*carrier)(from).inverse() * p)) : p;
 }
 
-void Scene::add(const Rectangle& rectangle, Canvas paint, bool corners_darken) {
-  const Vector3<double> normal = rectangle.normal();
-  const Image<float>& from = paint.pixels();
-  Image<std::uint8_t> texture(from.width(), from.height());
-  // Light is smooth: one value in eight texels each way, linear between.
-  constexpr int kStep = 8;
-  const Vector2<double> d = paint.density();
-  const auto light = [&](int i, int j) {
-    const double s = (i + 0.5) / d[0], t = (j + 0.5) / d[1];
-    double l = light_at(lamps, rectangle.at(s, t), normal);
-    if (corners_darken) {
-      for (const double edge : {s, rectangle.width - s, t, rectangle.height - t}) {
-        l *= 1.0 - kEdgeShade * std::exp(-std::max(0.0, edge) / kEdgeWidth);
-      }
-    }
-    return l;
-  };
-  Image<float> lights(from.width() / kStep + 2, from.height() / kStep + 2);
-  for (int j = 0; j < lights.height(); ++j) {
-    for (int i = 0; i < lights.width(); ++i) lights(i, j) = static_cast<float>(light(i * kStep, j * kStep));
-  }
-  for (int j = 0; j < from.height(); ++j) {
-    for (int i = 0; i < from.width(); ++i) {
-      const int a = i / kStep, b = j / kStep;
-      const float x = static_cast<float>(i % kStep) / kStep, y = static_cast<float>(j % kStep) / kStep;
-      const float top = lights(a, b) + x * (lights(a + 1, b) - lights(a, b));
-      const float bottom = lights(a, b + 1) + x * (lights(a + 1, b + 1) - lights(a, b + 1));
-      const float value = from(i, j) * (top + y * (bottom - top));
-      texture(i, j) = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 255.0F)));
-    }
-  }
-  add_unlit(rectangle, std::move(texture));
+void Scene::add(const Rectangle& rectangle, const Canvas& paint, bool corners_darken) {
+  add_unlit(rectangle, lit(paint, rectangle, lamps, corners_darken));
+}
+
+void Scene::add(const Rectangle& rectangle, Paint paint, bool corners_darken) {
+  textures_.emplace_back(
+      [=, paint = std::move(paint), by = lamps] { return lit(paint(), rectangle, by, corners_darken); });
+  surfaces_.push_back({rectangle, &textures_.back()});
 }
 
 void Scene::add_unlit(const Rectangle& rectangle, Image<std::uint8_t> texture) {
@@ -103,8 +114,8 @@ void Scene::add_unlit(const Rectangle& rectangle, Image<std::uint8_t> texture) {
   surfaces_.push_back({rectangle, &textures_.back()});
 }
 
-void Scene::add_pane(const Rectangle& rectangle, Canvas paint, Image<std::uint8_t> opacity) {
-  add(rectangle, std::move(paint));
+void Scene::add_pane(const Rectangle& rectangle, const Canvas& paint, Image<std::uint8_t> opacity) {
+  add(rectangle, paint);
   textures_.emplace_back(std::move(opacity));
   surfaces_.back().opacity = &textures_.back();
 }

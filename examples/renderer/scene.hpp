@@ -63,6 +63,15 @@ struct Sign {
   Sign standing(double time) const;
 };
 
+/// What paints a canvas when it is wanted.
+using Paint = std::function<Canvas()>;
+
+/// `make(values...)`, when it is wanted.
+template <class... Parameters, class... Values>
+Paint later(Canvas (*make)(Parameters...), Values... values) {
+  return [=] { return make(values...); };
+}
+
 struct Hit {
   int surface = -1;       ///< -1: nothing
   double distance = 0.0;  ///< in units of the ray's direction
@@ -81,11 +90,13 @@ class Scene {
 
   /// A surface with the painted texture in the light of the lamps. `corners_darken`: light also fades towards the
   /// rectangle's edges, as where walls meet.
-  void add(const Rectangle& rectangle, Canvas paint, bool corners_darken = false);
+  void add(const Rectangle& rectangle, const Canvas& paint, bool corners_darken = false);
+  /// The same, painted when it is first seen.
+  void add(const Rectangle& rectangle, Paint paint, bool corners_darken = false);
   /// A surface with the texture as it is, unlit.
   void add_unlit(const Rectangle& rectangle, Image<std::uint8_t> texture);
   /// A painted surface through which light passes where `opacity` is below 255.
-  void add_pane(const Rectangle& rectangle, Canvas paint, Image<std::uint8_t> opacity);
+  void add_pane(const Rectangle& rectangle, const Canvas& paint, Image<std::uint8_t> opacity);
   /// `radius` of the upright cylinder that the text is written on, with the rectangle between its corners; 0: flat.
   void add_sign(std::string word, const Rectangle& text, double radius = 0.0);
 

@@ -1,8 +1,12 @@
-// Texture: an 8-bit image with its mip levels, and the filtered lookup under a footprint that may be long and thin.
+// Texture: an 8-bit image with its mip levels, and the filtered lookup under a footprint that may be long and thin. It may
+// be painted when it is first seen: much of a scene never is.
 #ifndef TEXTSLAM_RENDERER_TEXTURE_HPP
 #define TEXTSLAM_RENDERER_TEXTURE_HPP
 
+#include <atomic>
 #include <cstdint>
+#include <functional>
+#include <mutex>
 #include <vector>
 
 #include "textplane/core/image_view.hpp"
@@ -13,6 +17,12 @@ namespace textslam {
 class Texture {
  public:
   explicit Texture(textplane::Image<std::uint8_t> base);
+  explicit Texture(std::function<textplane::Image<std::uint8_t>()> paint);
+
+  /// Paints it, the first time; from any number of threads. Before all else.
+  void be_seen() const {
+    if (!painted_.load(std::memory_order_acquire)) paint();
+  }
 
   int width() const noexcept { return levels_.front().width(); }
   int height() const noexcept { return levels_.front().height(); }
@@ -25,7 +35,12 @@ class Texture {
                 const textplane::Vector2<double>& side_y) const noexcept;
 
  private:
-  std::vector<textplane::Image<std::uint8_t>> levels_;
+  void paint() const;
+
+  std::function<textplane::Image<std::uint8_t>()> painter_;
+  mutable std::atomic<bool> painted_{false};
+  mutable std::once_flag once_;
+  mutable std::vector<textplane::Image<std::uint8_t>> levels_;
 };
 
 }  // namespace textslam
