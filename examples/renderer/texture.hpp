@@ -1,5 +1,5 @@
-// Texture: an 8-bit image with its mip levels, and the filtered lookup under a footprint that may be long and thin. It may
-// be painted when it is first seen: much of a scene never is.
+// Texture: an 8-bit image with its mip levels, and the filtered lookup under a footprint that may be long and thin. It
+// may be painted when it is first seen: much of a scene never is.
 #ifndef TEXTSLAM_RENDERER_TEXTURE_HPP
 #define TEXTSLAM_RENDERER_TEXTURE_HPP
 
