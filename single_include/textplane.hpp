@@ -1,5 +1,5 @@
-// textplane 0.1.0 in one header, made of 183 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: aa26b2295cad88a0
+// textplane 0.1.0 in one header, made of 184 files by single_include/amalgamate.py. Do not edit.
+// Hash of these files: 7701e6235bda0d88
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 aa26b2295cad88a0"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 7701e6235bda0d88"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -52,7 +52,7 @@
 // functions. Those of Eigen and of the standard library that a compiler does not inline stay shared, whichever copy the
 // linker keeps; so kernels and small solvers call none (tests/simd/isa).
 //
-// This header and simd/targets.hpp are the only ones that read compiler macros.
+// This header and simd/compiler.hpp are the only ones that read compiler macros.
 #ifndef TEXTPLANE_CONFIG_HPP
 #define TEXTPLANE_CONFIG_HPP
 
@@ -2522,15 +2522,15 @@ TEXTPLANE_END_NAMESPACE
 //
 // A *region* is a stretch of source inside `textplane::detail::<target>` that the compiler builds for that instruction
 // set, whatever the command line says (foreach_target.inl opens them). Code outside stays baseline, so one plain -O2
-// build holds kernels for every CPU. Besides config.hpp this is the only header that reads compiler macros.
+// build holds kernels for every CPU.
 //
-// GCC and Clang build the x86-64 targets and NEON on little-endian AArch64. For Windows GCC builds SSE4.1 alone: it
-// aligns the stack to 16 bytes and moves wider vectors there as if they were aligned (its bug 54412). A file that the
-// assembler makes with -Wa,-muse-unaligned-vector-move (binutils 2.38) may say so, by the macro
+// GCC, Clang and MSVC build the x86-64 targets, GCC and Clang NEON on little-endian AArch64. For Windows GCC builds
+// SSE4.1 alone: it aligns the stack to 16 bytes and moves wider vectors there as if they were aligned (its bug 54412).
+// A file that the assembler makes with -Wa,-muse-unaligned-vector-move (binutils 2.38) may say so, by the macro
 // TEXTPLANE_UNALIGNED_VECTOR_MOVES, and has them all. WebAssembly has no CPU to ask: its vectors (simd128) are for a
-// whole translation unit, with Clang's -msimd128. All other compilers and CPUs, MSVC itself and 32 bits among them,
-// have the scalar target alone. Where TEXTPLANE_TARGET fixes a target (dispatch.hpp), a translation unit builds only
-// what that one needs.
+// whole translation unit, with Clang's -msimd128. All other compilers and CPUs, 32 bits among them, have the scalar
+// target alone. Where TEXTPLANE_TARGET fixes a target (dispatch.hpp), a translation unit builds only what that one
+// needs.
 //
 // Compiled kernels, an option: every file that calls a kernel compiles all its targets, which takes time. Where
 // TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see only declarations of kernels and solvers, and
@@ -2544,6 +2544,12 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_SIMD_TARGETS_HPP
 #define TEXTPLANE_SIMD_TARGETS_HPP
 
+// What the compiler and the machine offer to the SIMD targets, and how to say it to this compiler: which kernels this
+// file has, intrinsics, instruction sets by regions, and the building blocks of a region. Besides config.hpp this is
+// the only header that reads compiler macros.
+#ifndef TEXTPLANE_SIMD_COMPILER_HPP
+#define TEXTPLANE_SIMD_COMPILER_HPP
+
 #if defined(TEXTPLANE_EXTERN_KERNELS) && !defined(TEXTPLANE_DEFINE_KERNELS)
 #define TEXTPLANE_HAS_KERNELS 0
 #else
@@ -2556,7 +2562,32 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_SIMD_ON_x86_wide 0
 #define TEXTPLANE_SIMD_ON_arm 0
 #define TEXTPLANE_SIMD_ON_wasm 0
-#if defined(__GNUC__) || defined(__clang__)
+
+// MSVC takes intrinsics of any instruction set anywhere, so its regions have no pragmas; its vectors are unions,
+// without operators. No MSVC has compiled that yet. Tests stand in for it: TEXTPLANE_UNION_VECTORS names a header with
+// such unions, and makes of Clang for MSVC's target a compiler that passes for MSVC.
+#if defined(_MSC_VER) && (!defined(__clang__) || defined(TEXTPLANE_UNION_VECTORS))
+#define TEXTPLANE_SIMD_MSVC 1
+#else
+#define TEXTPLANE_SIMD_MSVC 0
+#endif
+#if defined(TEXTPLANE_UNION_VECTORS) || (TEXTPLANE_SIMD_MSVC && defined(_M_X64) && !defined(_M_ARM64EC))
+#define TEXTPLANE_SIMD_UNIONS 1
+#else
+#define TEXTPLANE_SIMD_UNIONS 0
+#endif
+#if TEXTPLANE_SIMD_UNIONS
+#if !TEXTPLANE_HAS_KERNELS
+#elif defined(TEXTPLANE_UNION_VECTORS)
+#include TEXTPLANE_UNION_VECTORS
+#else
+#include <immintrin.h>
+#endif
+#undef TEXTPLANE_SIMD_ON_x86
+#undef TEXTPLANE_SIMD_ON_x86_wide
+#define TEXTPLANE_SIMD_ON_x86 1
+#define TEXTPLANE_SIMD_ON_x86_wide 1
+#elif defined(__GNUC__) || defined(__clang__)
 #if defined(__x86_64__)
 #if TEXTPLANE_HAS_KERNELS
 #include <immintrin.h>
@@ -2601,6 +2632,106 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_SIMD_ON_wasm 1
 #endif
 #endif
+
+// TEXTPLANE_SIMD_FEATURES_BEGIN and TEXTPLANE_SIMD_FEATURES_END go around what is built for these instruction sets.
+#define TEXTPLANE_SIMD_TEXT_(text) #text
+#define TEXTPLANE_SIMD_TEXT(text) TEXTPLANE_SIMD_TEXT_(text)
+#if TEXTPLANE_SIMD_UNIONS
+#define TEXTPLANE_SIMD_FEATURES_BEGIN(features)
+#define TEXTPLANE_SIMD_FEATURES_END
+#elif defined(__clang__)
+#define TEXTPLANE_SIMD_FEATURES_BEGIN(features) \
+  _Pragma(TEXTPLANE_SIMD_TEXT(clang attribute push(__attribute__((target(features))), apply_to = function)))
+#define TEXTPLANE_SIMD_FEATURES_END _Pragma("clang attribute pop")
+#else
+#define TEXTPLANE_SIMD_FEATURES_BEGIN(features) \
+  _Pragma("GCC push_options") _Pragma(TEXTPLANE_SIMD_TEXT(GCC target(features)))
+#define TEXTPLANE_SIMD_FEATURES_END _Pragma("GCC pop_options")
+#endif
+
+// Clang keeps -ffinite-math-only in functions that a pragma asks to be precise. It may then swap the operands of a
+// minimum, and a NaN would get past a clamp. So the operations hide their minima and maxima from it in assembly.
+#if defined(__clang__) && defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#define TEXTPLANE_SIMD_HIDE_MINIMA 1
+#else
+#define TEXTPLANE_SIMD_HIDE_MINIMA 0
+#endif
+
+// Building blocks of a region and its entry points.
+#if (defined(__GNUC__) || defined(__clang__)) && !TEXTPLANE_SIMD_MSVC
+#define TEXTPLANE_SIMD_INLINE inline __attribute__((always_inline))
+#define TEXTPLANE_SIMD_ENTRY inline __attribute__((noinline))
+#define TEXTPLANE_SIMD_RESTRICT __restrict__
+#define TEXTPLANE_SIMD_PREFETCH(p) __builtin_prefetch(p)
+#define TEXTPLANE_SIMD_UNROLL _Pragma("GCC unroll 8")  // g++ keeps such loops at -O2, and their arrays in memory
+#define TEXTPLANE_SIMD_SQRT __builtin_sqrtf
+#define TEXTPLANE_SIMD_FLOOR __builtin_floorf
+#define TEXTPLANE_SIMD_ABS __builtin_fabsf
+#define TEXTPLANE_SIMD_SQRT_D __builtin_sqrt
+#define TEXTPLANE_SIMD_TRUNC_D __builtin_trunc
+#define TEXTPLANE_SIMD_ABS_D __builtin_fabs
+#define TEXTPLANE_SIMD_COPY __builtin_memcpy
+#define TEXTPLANE_SIMD_LOWEST_BIT(bits) __builtin_ctzll(bits)
+#else
+#include <cmath>
+#include <cstring>
+#if TEXTPLANE_SIMD_MSVC
+#include <intrin.h>
+#define TEXTPLANE_SIMD_INLINE __forceinline
+#define TEXTPLANE_SIMD_ENTRY inline __declspec(noinline)
+#define TEXTPLANE_SIMD_RESTRICT __restrict
+#define TEXTPLANE_SIMD_LOWEST_BIT(bits) lowest_bit_of(bits)
+#else
+#define TEXTPLANE_SIMD_INLINE inline
+#define TEXTPLANE_SIMD_ENTRY inline
+#define TEXTPLANE_SIMD_RESTRICT
+#endif
+#define TEXTPLANE_SIMD_PREFETCH(p) static_cast<void>(p)
+#define TEXTPLANE_SIMD_UNROLL
+#define TEXTPLANE_SIMD_SQRT ::std::sqrt
+#define TEXTPLANE_SIMD_FLOOR ::std::floor
+#define TEXTPLANE_SIMD_ABS ::std::fabs
+#define TEXTPLANE_SIMD_SQRT_D ::std::sqrt
+#define TEXTPLANE_SIMD_TRUNC_D ::std::trunc
+#define TEXTPLANE_SIMD_ABS_D ::std::fabs
+#define TEXTPLANE_SIMD_COPY ::std::memcpy
+#endif
+#if (defined(__GNUC__) || defined(__clang__)) && !TEXTPLANE_SIMD_UNIONS && !defined(TEXTPLANE_EMULATED_AVX512)
+#define TEXTPLANE_SIMD_HOLD(constraint, v) __asm__("" : constraint(v))
+#else
+#define TEXTPLANE_SIMD_HOLD(constraint, v) static_cast<void>(0)
+#endif
+
+// What the compilers' own vectors have. 0 - a would lose the sign of a zero.
+#if TEXTPLANE_SIMD_UNIONS
+#define TEXTPLANE_SIMD_OPERATOR(Vector, sign, function) \
+  TEXTPLANE_SIMD_INLINE Vector operator sign(Vector a, Vector b) noexcept { return function(a, b); }
+#define TEXTPLANE_SIMD_OPERATORS(Vector, prefix, type)          \
+  TEXTPLANE_SIMD_OPERATOR(Vector, +, prefix##_add_##type)       \
+  TEXTPLANE_SIMD_OPERATOR(Vector, -, prefix##_sub_##type)       \
+  TEXTPLANE_SIMD_OPERATOR(Vector, *, prefix##_mul_##type)       \
+  TEXTPLANE_SIMD_OPERATOR(Vector, /, prefix##_div_##type)       \
+  TEXTPLANE_SIMD_INLINE Vector operator-(Vector a) noexcept {   \
+    return prefix##_sub_##type(prefix##_set1_##type(-0.0f), a); \
+  }
+#else
+#define TEXTPLANE_SIMD_OPERATORS(Vector, prefix, type)
+#endif
+
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+#if TEXTPLANE_SIMD_UNIONS && TEXTPLANE_SIMD_MSVC
+/// Number of the lowest bit that is set; there is one.
+TEXTPLANE_SIMD_INLINE int lowest_bit_of(unsigned long long bits) noexcept {
+  unsigned long number = 0;
+  _BitScanForward64(&number, bits);
+  return static_cast<int>(number);
+}
+#endif
+}  // namespace detail
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_SIMD_COMPILER_HPP
 
 // A test may define TEXTPLANE_EMULATED_AVX512 as a header that emulates the intrinsics: avx512 is then built for AVX2.
 #define TEXTPLANE_SIMD_HASWELL "sse4.1,avx,avx2,fma,popcnt"
@@ -2669,17 +2800,6 @@ TEXTPLANE_END_NAMESPACE
   || (TEXTPLANE_SIMD_ON_##needs && ((a) >> number & 1))
 
 // TEXTPLANE_SIMD_BEGIN and TEXTPLANE_SIMD_END, Xs of the table, go around a region.
-#define TEXTPLANE_SIMD_TEXT_(text) #text
-#define TEXTPLANE_SIMD_TEXT(text) TEXTPLANE_SIMD_TEXT_(text)
-#if defined(__clang__)
-#define TEXTPLANE_SIMD_FEATURES_BEGIN(features) \
-  _Pragma(TEXTPLANE_SIMD_TEXT(clang attribute push(__attribute__((target(features))), apply_to = function)))
-#define TEXTPLANE_SIMD_FEATURES_END _Pragma("clang attribute pop")
-#else
-#define TEXTPLANE_SIMD_FEATURES_BEGIN(features) \
-  _Pragma("GCC push_options") _Pragma(TEXTPLANE_SIMD_TEXT(GCC target(features)))
-#define TEXTPLANE_SIMD_FEATURES_END _Pragma("GCC pop_options")
-#endif
 #define TEXTPLANE_SIMD_BEGIN_any(features)
 #define TEXTPLANE_SIMD_BEGIN_x86(features) TEXTPLANE_SIMD_FEATURES_BEGIN(features)
 #define TEXTPLANE_SIMD_BEGIN_x86_wide(features) TEXTPLANE_SIMD_FEATURES_BEGIN(features)
@@ -2692,41 +2812,6 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_SIMD_END_wasm
 #define TEXTPLANE_SIMD_BEGIN(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_BEGIN_##needs(features)
 #define TEXTPLANE_SIMD_END(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_END_##needs
-
-// Clang keeps -ffinite-math-only in functions that a pragma asks to be precise. It may then swap the operands of a
-// minimum, and a NaN would get past a clamp. So the operations hide their minima and maxima from it in assembly.
-#if defined(__clang__) && defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
-#define TEXTPLANE_SIMD_HIDE_MINIMA 1
-#else
-#define TEXTPLANE_SIMD_HIDE_MINIMA 0
-#endif
-
-// Building blocks of a region and its entry points.
-#if defined(__GNUC__) || defined(__clang__)
-#define TEXTPLANE_SIMD_INLINE inline __attribute__((always_inline))
-#define TEXTPLANE_SIMD_ENTRY inline __attribute__((noinline))
-#define TEXTPLANE_SIMD_RESTRICT __restrict__
-#define TEXTPLANE_SIMD_PREFETCH(p) __builtin_prefetch(p)
-#define TEXTPLANE_SIMD_UNROLL _Pragma("GCC unroll 8")  // g++ keeps such loops at -O2, and their arrays in memory
-#define TEXTPLANE_SIMD_SQRT __builtin_sqrtf
-#define TEXTPLANE_SIMD_FLOOR __builtin_floorf
-#define TEXTPLANE_SIMD_ABS __builtin_fabsf
-#else
-#include <cmath>
-#if defined(_MSC_VER)
-#define TEXTPLANE_SIMD_INLINE __forceinline
-#define TEXTPLANE_SIMD_RESTRICT __restrict
-#else
-#define TEXTPLANE_SIMD_INLINE inline
-#define TEXTPLANE_SIMD_RESTRICT
-#endif
-#define TEXTPLANE_SIMD_ENTRY inline
-#define TEXTPLANE_SIMD_PREFETCH(p) static_cast<void>(p)
-#define TEXTPLANE_SIMD_UNROLL
-#define TEXTPLANE_SIMD_SQRT ::std::sqrt
-#define TEXTPLANE_SIMD_FLOOR ::std::floor
-#define TEXTPLANE_SIMD_ABS ::std::fabs
-#endif
 
 TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
@@ -2818,15 +2903,25 @@ constexpr CpuFeature kCpuFeatures[] = {
 
 /// The words a, b, c, d of a leaf of CPUID. Not by <cpuid.h>, whose macro __cpuid is a function of Windows' headers.
 inline void cpu_identification(unsigned leaf, unsigned (&words)[4]) noexcept {
+#if TEXTPLANE_SIMD_MSVC
+  int registers[4] = {};
+  __cpuidex(registers, static_cast<int>(leaf), 0);
+  for (int i = 0; i < 4; ++i) words[i] = static_cast<unsigned>(registers[i]);
+#else
   __asm__ volatile("cpuid" : "=a"(words[0]), "=b"(words[1]), "=c"(words[2]), "=d"(words[3]) : "0"(leaf), "2"(0));
+#endif
 }
 
 /// The low half of XCR0: which registers the operating system saves. Only where CPUID reports OSXSAVE.
 inline unsigned extended_control_register() noexcept {
+#if TEXTPLANE_SIMD_MSVC
+  return static_cast<unsigned>(_xgetbv(0));
+#else
   unsigned low = 0, high = 0;
   // The mnemonic needs -mxsave in some assemblers.
   __asm__ volatile(".byte 0x0f, 0x01, 0xd0" : "=a"(low), "=d"(high) : "c"(0));
   return low;
+#endif
 }
 
 /// True when a comma-separated list begins with `name`; then `list` moves behind it.
@@ -3153,7 +3248,7 @@ TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
 #if TEXTPLANE_SIMD_HIDE_MINIMA
 TEXTPLANE_SIMD_INLINE bool is_nan_(vf a) noexcept {
   unsigned word = 0;
-  __builtin_memcpy(&word, &a, sizeof word);
+  TEXTPLANE_SIMD_COPY(&word, &a, sizeof word);
   return (word & 0x7fffffffu) > 0x7f800000u;
 }
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return is_nan_(a) || is_nan_(b) || !(a < b) ? b : a; }
@@ -3241,7 +3336,7 @@ TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept {
 }
 
 // --- one number ---
-TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return __builtin_sqrt(a); }
+TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return TEXTPLANE_SIMD_SQRT_D(a); }
 // The number of the lowest bit that is set; bits != 0.
 TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept {
   int bit = 0;
@@ -3369,8 +3464,8 @@ TEXTPLANE_SIMD_INLINE void store_p(double* p, vp v) noexcept { *p = v; }
 TEXTPLANE_SIMD_INLINE vp madd_p(vp a, vp b, vp c) noexcept { return a * b + c; }  // fused where madd() is
 TEXTPLANE_SIMD_INLINE vp min_p(vp a, vp b) noexcept { return a < b ? a : b; }     // b where either is NaN
 TEXTPLANE_SIMD_INLINE vp max_p(vp a, vp b) noexcept { return a > b ? a : b; }
-TEXTPLANE_SIMD_INLINE vp abs_p(vp a) noexcept { return __builtin_fabs(a); }
-TEXTPLANE_SIMD_INLINE vp trunc_p(vp a) noexcept { return __builtin_trunc(a); }
+TEXTPLANE_SIMD_INLINE vp abs_p(vp a) noexcept { return TEXTPLANE_SIMD_ABS_D(a); }
+TEXTPLANE_SIMD_INLINE vp trunc_p(vp a) noexcept { return TEXTPLANE_SIMD_TRUNC_D(a); }
 // a where m > 0, else b.
 TEXTPLANE_SIMD_INLINE vp positive_p(vp m, vp a, vp b) noexcept { return m > 0 ? a : b; }
 // Rounded to float.
@@ -3577,7 +3672,7 @@ TEXTPLANE_SIMD_INLINE int sum_of_four(__m128i v) noexcept {
 // --- gathers: inserts beat the instructions and the way through general registers ---
 TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
   std::uint64_t pair;
-  __builtin_memcpy(&pair, offset, 8);
+  TEXTPLANE_SIMD_COPY(&pair, offset, 8);
   return pair;
 }
 TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept {
@@ -3622,12 +3717,13 @@ TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint
   store128(taps, v);
 }
 TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set1_pd(a))); }
-TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
+TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return TEXTPLANE_SIMD_LOWEST_BIT(bits); }
 
 // --- floats ---
 constexpr int kLanes = 4;
 constexpr bool kManyRegisters = false;
 using vf = __m128;
+TEXTPLANE_SIMD_OPERATORS(__m128, _mm, ps)
 using vi = __m128i;
 using vm = __m128;  // all bits of a lane
 
@@ -3638,7 +3734,7 @@ TEXTPLANE_SIMD_INLINE vf iota() noexcept { return _mm_setr_ps(0.0f, 1.0f, 2.0f, 
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm_setr_epi32(0, 1, 2, 3); }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm_loadu_ps(p); }
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
-  __asm__("" : "+x"(v));
+  TEXTPLANE_SIMD_HOLD("+x", v);
   return v;
 }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm_storeu_ps(p, v); }
@@ -3811,6 +3907,7 @@ TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm_cvtepi16_epi3
 // --- doubles ---
 enum : int { kDoubles = 2 };
 using vp = __m128d;
+TEXTPLANE_SIMD_OPERATORS(__m128d, _mm, pd)
 struct vd {
   vp part[4];
 };
@@ -3863,7 +3960,7 @@ TEXTPLANE_SIMD_INLINE void load2(const float* p, vf* a, vf* b) noexcept {
 TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept {
   const __m128i pick = _mm_set_epi8(-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, 12, 8, 4, 0);
   const int word = _mm_cvtsi128_si32(_mm_shuffle_epi8(v, pick));
-  __builtin_memcpy(p, &word, 4);
+  TEXTPLANE_SIMD_COPY(p, &word, 4);
 }
 
 TEXTPLANE_SIMD_INLINE vb loadb_n(const std::uint8_t* p, int n) noexcept {
@@ -4047,7 +4144,7 @@ TEXTPLANE_SIMD_INLINE int sum_of_four(__m128i v) noexcept {
 }
 TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
   std::uint64_t pair;
-  __builtin_memcpy(&pair, offset, 8);
+  TEXTPLANE_SIMD_COPY(&pair, offset, 8);
   return pair;
 }
 TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept {
@@ -4092,12 +4189,13 @@ TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint
   store128(taps, v);
 }
 TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set1_pd(a))); }
-TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
+TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return TEXTPLANE_SIMD_LOWEST_BIT(bits); }
 
 // --- floats ---
 constexpr int kLanes = 8;
 constexpr bool kManyRegisters = false;
 using vf = __m256;
+TEXTPLANE_SIMD_OPERATORS(__m256, _mm256, ps)
 using vi = __m256i;
 using vm = __m256;  // all bits of a lane
 
@@ -4161,7 +4259,7 @@ TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm256_setr_epi32(0, 1, 2, 3, 
 TEXTPLANE_SIMD_INLINE __m256i first_n_bits(int n) noexcept { return _mm256_cmpgt_epi32(_mm256_set1_epi32(n), ioti()); }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm256_loadu_ps(p); }
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
-  __asm__("" : "+x"(v));
+  TEXTPLANE_SIMD_HOLD("+x", v);
   return v;
 }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm256_storeu_ps(p, v); }
@@ -4339,6 +4437,7 @@ TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm256_cvtepi16_e
 // --- doubles ---
 enum : int { kDoubles = 4 };
 using vp = __m256d;
+TEXTPLANE_SIMD_OPERATORS(__m256d, _mm256, pd)
 struct vd {
   vp part[2];
 };
@@ -4650,7 +4749,7 @@ TEXTPLANE_SIMD_INLINE int sum_of_four(__m128i v) noexcept {
 }
 TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
   std::uint64_t pair;
-  __builtin_memcpy(&pair, offset, 8);
+  TEXTPLANE_SIMD_COPY(&pair, offset, 8);
   return pair;
 }
 TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept {
@@ -4695,12 +4794,13 @@ TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint
   store128(taps, v);
 }
 TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set1_pd(a))); }
-TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
+TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return TEXTPLANE_SIMD_LOWEST_BIT(bits); }
 
 // --- floats ---
 constexpr int kLanes = 16;
 constexpr bool kManyRegisters = true;  // 32
 using vf = __m512;
+TEXTPLANE_SIMD_OPERATORS(__m512, _mm512, ps)
 using vi = __m512i;
 using vm = __mmask16;
 constexpr vm kFull = 0xffff;
@@ -4761,9 +4861,7 @@ TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept {
 }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm512_loadu_ps(p); }
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
-#if !defined(TEXTPLANE_EMULATED_AVX512)
-  __asm__("" : "+v"(v));
-#endif
+  TEXTPLANE_SIMD_HOLD("+v", v);
   return v;
 }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm512_storeu_ps(p, v); }
@@ -4948,6 +5046,7 @@ TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm512_maskz_cvte
 // --- doubles ---
 enum : int { kDoubles = 8 };
 using vp = __m512d;
+TEXTPLANE_SIMD_OPERATORS(__m512d, _mm512, pd)
 struct vd {
   vp part[1];
 };
@@ -6506,7 +6605,7 @@ enum WarpKind : int { kWarp8F, kWarp88, kWarpFF };
 // A finite double, by its bits: -ffast-math cannot fold it away.
 TEXTPLANE_SIMD_INLINE bool warp_finite(double x) noexcept {
   std::uint64_t word = 0;
-  __builtin_memcpy(&word, &x, sizeof word);
+  TEXTPLANE_SIMD_COPY(&word, &x, sizeof word);
   return (word & 0x7ff0000000000000ULL) != 0x7ff0000000000000ULL;
 }
 
@@ -6535,7 +6634,7 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
     const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
-    const double reach = __builtin_fabs(px - t->ox) + __builtin_fabs(py - t->oy) + 1.0;
+    const double reach = TEXTPLANE_SIMD_ABS_D(px - t->ox) + TEXTPLANE_SIMD_ABS_D(py - t->oy) + 1.0;
     inside = inside && q * (0.5 * margin) > 3e-7 * size * reach && px >= margin && py >= margin &&
              px <= a.width - 1 - margin && py <= a.height - 1 - margin;
     x_low = px < x_low ? px : x_low;
@@ -6552,8 +6651,8 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
   const double ny1 = y[1] * (z[0] + bottom * z[2]) - (y[0] + bottom * y[2]) * z[1];
   t->leftwards = nx0 < 0.0;
   t->upwards = ny0 + ny1 < 0.0;
-  const double ax0 = __builtin_fabs(nx0), ax1 = __builtin_fabs(nx1), ay0 = __builtin_fabs(ny0),
-               ay1 = __builtin_fabs(ny1);
+  const double ax0 = TEXTPLANE_SIMD_ABS_D(nx0), ax1 = TEXTPLANE_SIMD_ABS_D(nx1), ay0 = TEXTPLANE_SIMD_ABS_D(ny0),
+               ay1 = TEXTPLANE_SIMD_ABS_D(ny1);
   const double steep = ay0 > ay1 ? ay0 : ay1, wide = ax0 > ax1 ? ax0 : ax1, narrow = ax0 < ax1 ? ax0 : ax1;
   const double z2_low = z_low * z_low, z2_high = z_high * z_high;
   // At most 15 pixels wide over 8 lanes, and far from standing still, where rounding could reverse the order.
@@ -6571,8 +6670,8 @@ TEXTPLANE_SIMD_INLINE WarpBlock warp_block(const simd::WarpArgs& a, int first_x,
   const double cx = first_x + t.columns / 2, cy = first_y + t.rows / 2;
   const double x[3] = {h[0] * cx + h[1] * cy + h[2], h[0], h[1]}, y[3] = {h[3] * cx + h[4] * cy + h[5], h[3], h[4]};
   const double z[3] = {h[6] * cx + h[7] * cy + h[8], h[6], h[7]};
-  const double size =
-      __builtin_fabs(z[0]) + kWarpBlockWidth * __builtin_fabs(z[1]) + kWarpBlockHeight * __builtin_fabs(z[2]);
+  const double size = TEXTPLANE_SIMD_ABS_D(z[0]) + kWarpBlockWidth * TEXTPLANE_SIMD_ABS_D(z[1]) +
+                      kWarpBlockHeight * TEXTPLANE_SIMD_ABS_D(z[2]);
   const double s = size > 0.0 ? 1.0 / size : 0.0;
   const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
   t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
@@ -6667,8 +6766,8 @@ TEXTPLANE_SIMD_INLINE void warp_fetch(const std::uint8_t* origin, std::ptrdiff_t
   for (int i = 0; i < n; ++i) {
     const std::uint8_t* p = origin + s->offset[i];
     if (kind == kWarpFF) {
-      __builtin_memcpy(s->upper + 2 * i, p, 8);
-      __builtin_memcpy(s->lower + 2 * i, p + stride, 8);
+      TEXTPLANE_SIMD_COPY(s->upper + 2 * i, p, 8);
+      TEXTPLANE_SIMD_COPY(s->lower + 2 * i, p + stride, 8);
     } else {
       s->taps[i] = warp_cell_taps(p, stride);
     }
@@ -6792,7 +6891,7 @@ namespace TEXTPLANE_SIMD_REGION {
 enum WarpKind : int { kWarp8F, kWarp88, kWarpFF };
 TEXTPLANE_SIMD_INLINE bool warp_finite(double x) noexcept {
   std::uint64_t word = 0;
-  __builtin_memcpy(&word, &x, sizeof word);
+  TEXTPLANE_SIMD_COPY(&word, &x, sizeof word);
   return (word & 0x7ff0000000000000ULL) != 0x7ff0000000000000ULL;
 }
 TEXTPLANE_SIMD_INLINE int warp_cell(double x, int last) noexcept {
@@ -6810,7 +6909,7 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
     const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
-    const double reach = __builtin_fabs(px - t->ox) + __builtin_fabs(py - t->oy) + 1.0;
+    const double reach = TEXTPLANE_SIMD_ABS_D(px - t->ox) + TEXTPLANE_SIMD_ABS_D(py - t->oy) + 1.0;
     inside = inside && q * (0.5 * margin) > 3e-7 * size * reach && px >= margin && py >= margin &&
              px <= a.width - 1 - margin && py <= a.height - 1 - margin;
     x_low = px < x_low ? px : x_low;
@@ -6827,8 +6926,8 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
   const double ny1 = y[1] * (z[0] + bottom * z[2]) - (y[0] + bottom * y[2]) * z[1];
   t->leftwards = nx0 < 0.0;
   t->upwards = ny0 + ny1 < 0.0;
-  const double ax0 = __builtin_fabs(nx0), ax1 = __builtin_fabs(nx1), ay0 = __builtin_fabs(ny0),
-               ay1 = __builtin_fabs(ny1);
+  const double ax0 = TEXTPLANE_SIMD_ABS_D(nx0), ax1 = TEXTPLANE_SIMD_ABS_D(nx1), ay0 = TEXTPLANE_SIMD_ABS_D(ny0),
+               ay1 = TEXTPLANE_SIMD_ABS_D(ny1);
   const double steep = ay0 > ay1 ? ay0 : ay1, wide = ax0 > ax1 ? ax0 : ax1, narrow = ax0 < ax1 ? ax0 : ax1;
   const double z2_low = z_low * z_low, z2_high = z_high * z_high;
   t->tiles = inside && (nx0 < 0.0) == (nx1 < 0.0) && wide <= 1.95 * z2_low && narrow >= 0.125 * z2_high &&
@@ -6842,8 +6941,8 @@ TEXTPLANE_SIMD_INLINE WarpBlock warp_block(const simd::WarpArgs& a, int first_x,
   const double cx = first_x + t.columns / 2, cy = first_y + t.rows / 2;
   const double x[3] = {h[0] * cx + h[1] * cy + h[2], h[0], h[1]}, y[3] = {h[3] * cx + h[4] * cy + h[5], h[3], h[4]};
   const double z[3] = {h[6] * cx + h[7] * cy + h[8], h[6], h[7]};
-  const double size =
-      __builtin_fabs(z[0]) + kWarpBlockWidth * __builtin_fabs(z[1]) + kWarpBlockHeight * __builtin_fabs(z[2]);
+  const double size = TEXTPLANE_SIMD_ABS_D(z[0]) + kWarpBlockWidth * TEXTPLANE_SIMD_ABS_D(z[1]) +
+                      kWarpBlockHeight * TEXTPLANE_SIMD_ABS_D(z[2]);
   const double s = size > 0.0 ? 1.0 / size : 0.0;
   const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
   t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
@@ -6924,8 +7023,8 @@ TEXTPLANE_SIMD_INLINE void warp_fetch(const std::uint8_t* origin, std::ptrdiff_t
   for (int i = 0; i < n; ++i) {
     const std::uint8_t* p = origin + s->offset[i];
     if (kind == kWarpFF) {
-      __builtin_memcpy(s->upper + 2 * i, p, 8);
-      __builtin_memcpy(s->lower + 2 * i, p + stride, 8);
+      TEXTPLANE_SIMD_COPY(s->upper + 2 * i, p, 8);
+      TEXTPLANE_SIMD_COPY(s->lower + 2 * i, p + stride, 8);
     } else {
       s->taps[i] = warp_cell_taps(p, stride);
     }
@@ -7039,7 +7138,7 @@ namespace TEXTPLANE_SIMD_REGION {
 enum WarpKind : int { kWarp8F, kWarp88, kWarpFF };
 TEXTPLANE_SIMD_INLINE bool warp_finite(double x) noexcept {
   std::uint64_t word = 0;
-  __builtin_memcpy(&word, &x, sizeof word);
+  TEXTPLANE_SIMD_COPY(&word, &x, sizeof word);
   return (word & 0x7ff0000000000000ULL) != 0x7ff0000000000000ULL;
 }
 TEXTPLANE_SIMD_INLINE int warp_cell(double x, int last) noexcept {
@@ -7057,7 +7156,7 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
     const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
-    const double reach = __builtin_fabs(px - t->ox) + __builtin_fabs(py - t->oy) + 1.0;
+    const double reach = TEXTPLANE_SIMD_ABS_D(px - t->ox) + TEXTPLANE_SIMD_ABS_D(py - t->oy) + 1.0;
     inside = inside && q * (0.5 * margin) > 3e-7 * size * reach && px >= margin && py >= margin &&
              px <= a.width - 1 - margin && py <= a.height - 1 - margin;
     x_low = px < x_low ? px : x_low;
@@ -7074,8 +7173,8 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
   const double ny1 = y[1] * (z[0] + bottom * z[2]) - (y[0] + bottom * y[2]) * z[1];
   t->leftwards = nx0 < 0.0;
   t->upwards = ny0 + ny1 < 0.0;
-  const double ax0 = __builtin_fabs(nx0), ax1 = __builtin_fabs(nx1), ay0 = __builtin_fabs(ny0),
-               ay1 = __builtin_fabs(ny1);
+  const double ax0 = TEXTPLANE_SIMD_ABS_D(nx0), ax1 = TEXTPLANE_SIMD_ABS_D(nx1), ay0 = TEXTPLANE_SIMD_ABS_D(ny0),
+               ay1 = TEXTPLANE_SIMD_ABS_D(ny1);
   const double steep = ay0 > ay1 ? ay0 : ay1, wide = ax0 > ax1 ? ax0 : ax1, narrow = ax0 < ax1 ? ax0 : ax1;
   const double z2_low = z_low * z_low, z2_high = z_high * z_high;
   t->tiles = inside && (nx0 < 0.0) == (nx1 < 0.0) && wide <= 1.95 * z2_low && narrow >= 0.125 * z2_high &&
@@ -7089,8 +7188,8 @@ TEXTPLANE_SIMD_INLINE WarpBlock warp_block(const simd::WarpArgs& a, int first_x,
   const double cx = first_x + t.columns / 2, cy = first_y + t.rows / 2;
   const double x[3] = {h[0] * cx + h[1] * cy + h[2], h[0], h[1]}, y[3] = {h[3] * cx + h[4] * cy + h[5], h[3], h[4]};
   const double z[3] = {h[6] * cx + h[7] * cy + h[8], h[6], h[7]};
-  const double size =
-      __builtin_fabs(z[0]) + kWarpBlockWidth * __builtin_fabs(z[1]) + kWarpBlockHeight * __builtin_fabs(z[2]);
+  const double size = TEXTPLANE_SIMD_ABS_D(z[0]) + kWarpBlockWidth * TEXTPLANE_SIMD_ABS_D(z[1]) +
+                      kWarpBlockHeight * TEXTPLANE_SIMD_ABS_D(z[2]);
   const double s = size > 0.0 ? 1.0 / size : 0.0;
   const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
   t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
@@ -7171,8 +7270,8 @@ TEXTPLANE_SIMD_INLINE void warp_fetch(const std::uint8_t* origin, std::ptrdiff_t
   for (int i = 0; i < n; ++i) {
     const std::uint8_t* p = origin + s->offset[i];
     if (kind == kWarpFF) {
-      __builtin_memcpy(s->upper + 2 * i, p, 8);
-      __builtin_memcpy(s->lower + 2 * i, p + stride, 8);
+      TEXTPLANE_SIMD_COPY(s->upper + 2 * i, p, 8);
+      TEXTPLANE_SIMD_COPY(s->lower + 2 * i, p + stride, 8);
     } else {
       s->taps[i] = warp_cell_taps(p, stride);
     }
@@ -7286,7 +7385,7 @@ namespace TEXTPLANE_SIMD_REGION {
 enum WarpKind : int { kWarp8F, kWarp88, kWarpFF };
 TEXTPLANE_SIMD_INLINE bool warp_finite(double x) noexcept {
   std::uint64_t word = 0;
-  __builtin_memcpy(&word, &x, sizeof word);
+  TEXTPLANE_SIMD_COPY(&word, &x, sizeof word);
   return (word & 0x7ff0000000000000ULL) != 0x7ff0000000000000ULL;
 }
 TEXTPLANE_SIMD_INLINE int warp_cell(double x, int last) noexcept {
@@ -7304,7 +7403,7 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
     const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
-    const double reach = __builtin_fabs(px - t->ox) + __builtin_fabs(py - t->oy) + 1.0;
+    const double reach = TEXTPLANE_SIMD_ABS_D(px - t->ox) + TEXTPLANE_SIMD_ABS_D(py - t->oy) + 1.0;
     inside = inside && q * (0.5 * margin) > 3e-7 * size * reach && px >= margin && py >= margin &&
              px <= a.width - 1 - margin && py <= a.height - 1 - margin;
     x_low = px < x_low ? px : x_low;
@@ -7321,8 +7420,8 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
   const double ny1 = y[1] * (z[0] + bottom * z[2]) - (y[0] + bottom * y[2]) * z[1];
   t->leftwards = nx0 < 0.0;
   t->upwards = ny0 + ny1 < 0.0;
-  const double ax0 = __builtin_fabs(nx0), ax1 = __builtin_fabs(nx1), ay0 = __builtin_fabs(ny0),
-               ay1 = __builtin_fabs(ny1);
+  const double ax0 = TEXTPLANE_SIMD_ABS_D(nx0), ax1 = TEXTPLANE_SIMD_ABS_D(nx1), ay0 = TEXTPLANE_SIMD_ABS_D(ny0),
+               ay1 = TEXTPLANE_SIMD_ABS_D(ny1);
   const double steep = ay0 > ay1 ? ay0 : ay1, wide = ax0 > ax1 ? ax0 : ax1, narrow = ax0 < ax1 ? ax0 : ax1;
   const double z2_low = z_low * z_low, z2_high = z_high * z_high;
   t->tiles = inside && (nx0 < 0.0) == (nx1 < 0.0) && wide <= 1.95 * z2_low && narrow >= 0.125 * z2_high &&
@@ -7336,8 +7435,8 @@ TEXTPLANE_SIMD_INLINE WarpBlock warp_block(const simd::WarpArgs& a, int first_x,
   const double cx = first_x + t.columns / 2, cy = first_y + t.rows / 2;
   const double x[3] = {h[0] * cx + h[1] * cy + h[2], h[0], h[1]}, y[3] = {h[3] * cx + h[4] * cy + h[5], h[3], h[4]};
   const double z[3] = {h[6] * cx + h[7] * cy + h[8], h[6], h[7]};
-  const double size =
-      __builtin_fabs(z[0]) + kWarpBlockWidth * __builtin_fabs(z[1]) + kWarpBlockHeight * __builtin_fabs(z[2]);
+  const double size = TEXTPLANE_SIMD_ABS_D(z[0]) + kWarpBlockWidth * TEXTPLANE_SIMD_ABS_D(z[1]) +
+                      kWarpBlockHeight * TEXTPLANE_SIMD_ABS_D(z[2]);
   const double s = size > 0.0 ? 1.0 / size : 0.0;
   const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
   t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
@@ -7418,8 +7517,8 @@ TEXTPLANE_SIMD_INLINE void warp_fetch(const std::uint8_t* origin, std::ptrdiff_t
   for (int i = 0; i < n; ++i) {
     const std::uint8_t* p = origin + s->offset[i];
     if (kind == kWarpFF) {
-      __builtin_memcpy(s->upper + 2 * i, p, 8);
-      __builtin_memcpy(s->lower + 2 * i, p + stride, 8);
+      TEXTPLANE_SIMD_COPY(s->upper + 2 * i, p, 8);
+      TEXTPLANE_SIMD_COPY(s->lower + 2 * i, p + stride, 8);
     } else {
       s->taps[i] = warp_cell_taps(p, stride);
     }
@@ -7533,7 +7632,7 @@ namespace TEXTPLANE_SIMD_REGION {
 enum WarpKind : int { kWarp8F, kWarp88, kWarpFF };
 TEXTPLANE_SIMD_INLINE bool warp_finite(double x) noexcept {
   std::uint64_t word = 0;
-  __builtin_memcpy(&word, &x, sizeof word);
+  TEXTPLANE_SIMD_COPY(&word, &x, sizeof word);
   return (word & 0x7ff0000000000000ULL) != 0x7ff0000000000000ULL;
 }
 TEXTPLANE_SIMD_INLINE int warp_cell(double x, int last) noexcept {
@@ -7551,7 +7650,7 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
     const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
-    const double reach = __builtin_fabs(px - t->ox) + __builtin_fabs(py - t->oy) + 1.0;
+    const double reach = TEXTPLANE_SIMD_ABS_D(px - t->ox) + TEXTPLANE_SIMD_ABS_D(py - t->oy) + 1.0;
     inside = inside && q * (0.5 * margin) > 3e-7 * size * reach && px >= margin && py >= margin &&
              px <= a.width - 1 - margin && py <= a.height - 1 - margin;
     x_low = px < x_low ? px : x_low;
@@ -7568,8 +7667,8 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
   const double ny1 = y[1] * (z[0] + bottom * z[2]) - (y[0] + bottom * y[2]) * z[1];
   t->leftwards = nx0 < 0.0;
   t->upwards = ny0 + ny1 < 0.0;
-  const double ax0 = __builtin_fabs(nx0), ax1 = __builtin_fabs(nx1), ay0 = __builtin_fabs(ny0),
-               ay1 = __builtin_fabs(ny1);
+  const double ax0 = TEXTPLANE_SIMD_ABS_D(nx0), ax1 = TEXTPLANE_SIMD_ABS_D(nx1), ay0 = TEXTPLANE_SIMD_ABS_D(ny0),
+               ay1 = TEXTPLANE_SIMD_ABS_D(ny1);
   const double steep = ay0 > ay1 ? ay0 : ay1, wide = ax0 > ax1 ? ax0 : ax1, narrow = ax0 < ax1 ? ax0 : ax1;
   const double z2_low = z_low * z_low, z2_high = z_high * z_high;
   t->tiles = inside && (nx0 < 0.0) == (nx1 < 0.0) && wide <= 1.95 * z2_low && narrow >= 0.125 * z2_high &&
@@ -7583,8 +7682,8 @@ TEXTPLANE_SIMD_INLINE WarpBlock warp_block(const simd::WarpArgs& a, int first_x,
   const double cx = first_x + t.columns / 2, cy = first_y + t.rows / 2;
   const double x[3] = {h[0] * cx + h[1] * cy + h[2], h[0], h[1]}, y[3] = {h[3] * cx + h[4] * cy + h[5], h[3], h[4]};
   const double z[3] = {h[6] * cx + h[7] * cy + h[8], h[6], h[7]};
-  const double size =
-      __builtin_fabs(z[0]) + kWarpBlockWidth * __builtin_fabs(z[1]) + kWarpBlockHeight * __builtin_fabs(z[2]);
+  const double size = TEXTPLANE_SIMD_ABS_D(z[0]) + kWarpBlockWidth * TEXTPLANE_SIMD_ABS_D(z[1]) +
+                      kWarpBlockHeight * TEXTPLANE_SIMD_ABS_D(z[2]);
   const double s = size > 0.0 ? 1.0 / size : 0.0;
   const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
   t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
@@ -7665,8 +7764,8 @@ TEXTPLANE_SIMD_INLINE void warp_fetch(const std::uint8_t* origin, std::ptrdiff_t
   for (int i = 0; i < n; ++i) {
     const std::uint8_t* p = origin + s->offset[i];
     if (kind == kWarpFF) {
-      __builtin_memcpy(s->upper + 2 * i, p, 8);
-      __builtin_memcpy(s->lower + 2 * i, p + stride, 8);
+      TEXTPLANE_SIMD_COPY(s->upper + 2 * i, p, 8);
+      TEXTPLANE_SIMD_COPY(s->lower + 2 * i, p + stride, 8);
     } else {
       s->taps[i] = warp_cell_taps(p, stride);
     }
@@ -7780,7 +7879,7 @@ namespace TEXTPLANE_SIMD_REGION {
 enum WarpKind : int { kWarp8F, kWarp88, kWarpFF };
 TEXTPLANE_SIMD_INLINE bool warp_finite(double x) noexcept {
   std::uint64_t word = 0;
-  __builtin_memcpy(&word, &x, sizeof word);
+  TEXTPLANE_SIMD_COPY(&word, &x, sizeof word);
   return (word & 0x7ff0000000000000ULL) != 0x7ff0000000000000ULL;
 }
 TEXTPLANE_SIMD_INLINE int warp_cell(double x, int last) noexcept {
@@ -7798,7 +7897,7 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
     const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
-    const double reach = __builtin_fabs(px - t->ox) + __builtin_fabs(py - t->oy) + 1.0;
+    const double reach = TEXTPLANE_SIMD_ABS_D(px - t->ox) + TEXTPLANE_SIMD_ABS_D(py - t->oy) + 1.0;
     inside = inside && q * (0.5 * margin) > 3e-7 * size * reach && px >= margin && py >= margin &&
              px <= a.width - 1 - margin && py <= a.height - 1 - margin;
     x_low = px < x_low ? px : x_low;
@@ -7815,8 +7914,8 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
   const double ny1 = y[1] * (z[0] + bottom * z[2]) - (y[0] + bottom * y[2]) * z[1];
   t->leftwards = nx0 < 0.0;
   t->upwards = ny0 + ny1 < 0.0;
-  const double ax0 = __builtin_fabs(nx0), ax1 = __builtin_fabs(nx1), ay0 = __builtin_fabs(ny0),
-               ay1 = __builtin_fabs(ny1);
+  const double ax0 = TEXTPLANE_SIMD_ABS_D(nx0), ax1 = TEXTPLANE_SIMD_ABS_D(nx1), ay0 = TEXTPLANE_SIMD_ABS_D(ny0),
+               ay1 = TEXTPLANE_SIMD_ABS_D(ny1);
   const double steep = ay0 > ay1 ? ay0 : ay1, wide = ax0 > ax1 ? ax0 : ax1, narrow = ax0 < ax1 ? ax0 : ax1;
   const double z2_low = z_low * z_low, z2_high = z_high * z_high;
   t->tiles = inside && (nx0 < 0.0) == (nx1 < 0.0) && wide <= 1.95 * z2_low && narrow >= 0.125 * z2_high &&
@@ -7830,8 +7929,8 @@ TEXTPLANE_SIMD_INLINE WarpBlock warp_block(const simd::WarpArgs& a, int first_x,
   const double cx = first_x + t.columns / 2, cy = first_y + t.rows / 2;
   const double x[3] = {h[0] * cx + h[1] * cy + h[2], h[0], h[1]}, y[3] = {h[3] * cx + h[4] * cy + h[5], h[3], h[4]};
   const double z[3] = {h[6] * cx + h[7] * cy + h[8], h[6], h[7]};
-  const double size =
-      __builtin_fabs(z[0]) + kWarpBlockWidth * __builtin_fabs(z[1]) + kWarpBlockHeight * __builtin_fabs(z[2]);
+  const double size = TEXTPLANE_SIMD_ABS_D(z[0]) + kWarpBlockWidth * TEXTPLANE_SIMD_ABS_D(z[1]) +
+                      kWarpBlockHeight * TEXTPLANE_SIMD_ABS_D(z[2]);
   const double s = size > 0.0 ? 1.0 / size : 0.0;
   const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
   t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
@@ -7912,8 +8011,8 @@ TEXTPLANE_SIMD_INLINE void warp_fetch(const std::uint8_t* origin, std::ptrdiff_t
   for (int i = 0; i < n; ++i) {
     const std::uint8_t* p = origin + s->offset[i];
     if (kind == kWarpFF) {
-      __builtin_memcpy(s->upper + 2 * i, p, 8);
-      __builtin_memcpy(s->lower + 2 * i, p + stride, 8);
+      TEXTPLANE_SIMD_COPY(s->upper + 2 * i, p, 8);
+      TEXTPLANE_SIMD_COPY(s->lower + 2 * i, p + stride, 8);
     } else {
       s->taps[i] = warp_cell_taps(p, stride);
     }

@@ -42,6 +42,16 @@ else()
   message(STATUS "no qemu-x86_64: nothing is run on an old CPU")
 endif()
 
+# The tests of the kernels once more, with kernels of their own.
+function(textplane_add_kernel_tests program)
+  get_target_property(sources test_simd SOURCES)
+  add_executable(${program} ${sources} ${PROJECT_SOURCE_DIR}/cmake/kernels.cpp)
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/cmake/kernels.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  target_compile_definitions(${program} PRIVATE TEXTPLANE_EXTERN_KERNELS)
+  target_precompile_headers(${program} PRIVATE ${precompiled})
+  set_target_properties(${program} PROPERTIES UNITY_BUILD ${TEXTPLANE_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
 # The AVX-512 bodies with emulated intrinsics, on CPUs that have AVX2 only. CI runs the vector operations, of which the
 # kernels are made, and leaves the kernels to TEXTPLANE_TEST_LONG: they take two minutes to compile.
 find_path(TEXTPLANE_SIMDE simde/x86/avx512.h)
@@ -63,12 +73,7 @@ elseif(TEXTPLANE_SIMDE AND TEXTPLANE_RUNS_AVX2 AND CMAKE_CXX_COMPILER_ID STREQUA
   set(rooms vectors)
   if(TEXTPLANE_TEST_LONG)
     list(APPEND rooms simd)
-    get_target_property(sources test_simd SOURCES)
-    add_executable(test_simd_avx512 ${sources} ${PROJECT_SOURCE_DIR}/cmake/kernels.cpp)
-    set_source_files_properties(${PROJECT_SOURCE_DIR}/cmake/kernels.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-    target_compile_definitions(test_simd_avx512 PRIVATE TEXTPLANE_EXTERN_KERNELS)
-    target_precompile_headers(test_simd_avx512 PRIVATE ${precompiled})
-    set_target_properties(test_simd_avx512 PROPERTIES UNITY_BUILD ${TEXTPLANE_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 8)
+    textplane_add_kernel_tests(test_simd_avx512)
   endif()
   textplane_add_vector_tests(test_vectors_avx512)
   foreach(room IN LISTS rooms)
@@ -79,4 +84,19 @@ elseif(TEXTPLANE_SIMDE AND TEXTPLANE_RUNS_AVX2 AND CMAKE_CXX_COMPILER_ID STREQUA
   endforeach()
 else()
   message(STATUS "no SIMDe, no AVX2 or not g++: the AVX-512 kernels are compiled, not run")
+endif()
+
+# All x86 targets as they are for MSVC: regions without pragmas, and vectors that are unions.
+if(TEXTPLANE_TEST_LONG AND TEXTPLANE_RUNS_AVX512 AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  textplane_add_vector_tests(test_vectors_unions)
+  textplane_add_kernel_tests(test_simd_unions)
+  foreach(room vectors simd)
+    target_link_libraries(test_${room}_unions PRIVATE textplane_developer GTest::gtest GTest::gtest_main)
+    target_include_directories(test_${room}_unions PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+    target_compile_options(test_${room}_unions PRIVATE -O1 -g0 -mavx2 -mfma -mpopcnt -mavx512f -mavx512bw -mavx512dq -mavx512vl -mavx512vnni)
+    target_compile_definitions(test_${room}_unions PRIVATE "TEXTPLANE_UNION_VECTORS=\"simd/union_vectors.hpp\"")
+    add_test(NAME emulation.unions.${room} COMMAND test_${room}_unions --gtest_brief=1)
+    set_tests_properties(emulation.unions.${room} PROPERTIES LABELS emulation TIMEOUT 600
+      PASS_REGULAR_EXPRESSION "targets run: scalar sse41 avx2 avx512\n[^|]*PASSED" FAIL_REGULAR_EXPRESSION "FAILED")
+  endforeach()
 endif()

@@ -14,7 +14,7 @@ ADAPTER_NEEDS = {"ceres": "ceres/", "ceres_pose": "ceres/", "ceres_text_rows": "
                  "ceres_window": "ceres/", "ceres_text_map": "ceres/", "opencv": "opencv2/",
                  "opencv_lens": "opencv2/"}
 
-SYSTEM = re.compile(r"(Eigen/(Core|Geometry)|c?[a-z_]+|([a-z]+[0-9]*[a-z]*intrin|arm_neon|wasm_simd128)\.h)$")
+SYSTEM = re.compile(r"(Eigen/(Core|Geometry)|c?[a-z_]+|([a-z]+[0-9]*[a-z]*intrin|intrin|arm_neon|wasm_simd128)\.h)$")
 OBJECT = re.compile(r"^(inline |static |thread_local |extern )+(?!constexpr)[\w:<>,\s*&]+?\b(\w+)\s*"
                     r"(\{[^}]*\}|=[^=].*)?;", re.M)
 # A matrix whose order of storage is left to EIGEN_DEFAULT_TO_ROW_MAJOR: neither side is 1, and no order follows.

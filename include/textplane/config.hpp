@@ -8,7 +8,7 @@
 // functions. Those of Eigen and of the standard library that a compiler does not inline stay shared, whichever copy the
 // linker keeps; so kernels and small solvers call none (tests/simd/isa).
 //
-// This header and simd/targets.hpp are the only ones that read compiler macros.
+// This header and simd/compiler.hpp are the only ones that read compiler macros.
 #ifndef TEXTPLANE_CONFIG_HPP
 #define TEXTPLANE_CONFIG_HPP
 

@@ -17,7 +17,8 @@ if "clang" in CXX:
 # Slow tests are compiled with -O1, which takes longer: they run for half a minute without it.
 SLOW = ("tests/solver/", "tests/support/", "tests/features/", "tests/geometry/plane_fit", "tests/geometry/triangulate", "tests/landmarks/")
 # What defines things that these headers declare.
-LINKED = {"textplane/simd/targets.hpp": "cmake/kernels.cpp", "tests/support/dense.hpp": "tests/support/dense.cpp",
+LINKED = {"textplane/simd/compiler.hpp": "cmake/kernels.cpp", "textplane/simd/targets.hpp": "cmake/kernels.cpp",
+          "tests/support/dense.hpp": "tests/support/dense.cpp",
           "textplane/geometry/plane_fit.hpp": "cmake/kernels.cpp"}
 NO_CODE = "does not compile"
 SWITCH = """extern "C" int textplane_mutant;
@@ -52,10 +53,10 @@ class Tree:
         for folder in ("include", "tests", "cmake"):
             shutil.copytree(ROOT / folder, self.path / folder)
         if not all_targets:
-            targets = self.path / "include/textplane/simd/targets.hpp"
-            text = targets.read_text()
+            compiler = self.path / "include/textplane/simd/compiler.hpp"
+            text = compiler.read_text()
             assert text.count("#if defined(__x86_64__)\n") == 1
-            targets.write_text(text.replace("#if defined(__x86_64__)\n", "#if 0\n"))
+            compiler.write_text(text.replace("#if defined(__x86_64__)\n", "#if 0\n"))
         self.objects = self.path / "objects"
         self.objects.mkdir()
         for name, text in (("switch.hpp", SWITCH), ("choice.cpp", CHOICE)):

@@ -27,15 +27,25 @@ constexpr CpuFeature kCpuFeatures[] = {
 
 /// The words a, b, c, d of a leaf of CPUID. Not by <cpuid.h>, whose macro __cpuid is a function of Windows' headers.
 inline void cpu_identification(unsigned leaf, unsigned (&words)[4]) noexcept {
+#if TEXTPLANE_SIMD_MSVC
+  int registers[4] = {};
+  __cpuidex(registers, static_cast<int>(leaf), 0);
+  for (int i = 0; i < 4; ++i) words[i] = static_cast<unsigned>(registers[i]);
+#else
   __asm__ volatile("cpuid" : "=a"(words[0]), "=b"(words[1]), "=c"(words[2]), "=d"(words[3]) : "0"(leaf), "2"(0));
+#endif
 }
 
 /// The low half of XCR0: which registers the operating system saves. Only where CPUID reports OSXSAVE.
 inline unsigned extended_control_register() noexcept {
+#if TEXTPLANE_SIMD_MSVC
+  return static_cast<unsigned>(_xgetbv(0));
+#else
   unsigned low = 0, high = 0;
   // The mnemonic needs -mxsave in some assemblers.
   __asm__ volatile(".byte 0x0f, 0x01, 0xd0" : "=a"(low), "=d"(high) : "c"(0));
   return low;
+#endif
 }
 
 /// True when a comma-separated list begins with `name`; then `list` moves behind it.

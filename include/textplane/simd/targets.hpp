@@ -2,15 +2,15 @@
 //
 // A *region* is a stretch of source inside `textplane::detail::<target>` that the compiler builds for that instruction
 // set, whatever the command line says (foreach_target.inl opens them). Code outside stays baseline, so one plain -O2
-// build holds kernels for every CPU. Besides config.hpp this is the only header that reads compiler macros.
+// build holds kernels for every CPU.
 //
-// GCC and Clang build the x86-64 targets and NEON on little-endian AArch64. For Windows GCC builds SSE4.1 alone: it
-// aligns the stack to 16 bytes and moves wider vectors there as if they were aligned (its bug 54412). A file that the
-// assembler makes with -Wa,-muse-unaligned-vector-move (binutils 2.38) may say so, by the macro
+// GCC, Clang and MSVC build the x86-64 targets, GCC and Clang NEON on little-endian AArch64. For Windows GCC builds
+// SSE4.1 alone: it aligns the stack to 16 bytes and moves wider vectors there as if they were aligned (its bug 54412).
+// A file that the assembler makes with -Wa,-muse-unaligned-vector-move (binutils 2.38) may say so, by the macro
 // TEXTPLANE_UNALIGNED_VECTOR_MOVES, and has them all. WebAssembly has no CPU to ask: its vectors (simd128) are for a
-// whole translation unit, with Clang's -msimd128. All other compilers and CPUs, MSVC itself and 32 bits among them,
-// have the scalar target alone. Where TEXTPLANE_TARGET fixes a target (dispatch.hpp), a translation unit builds only
-// what that one needs.
+// whole translation unit, with Clang's -msimd128. All other compilers and CPUs, 32 bits among them, have the scalar
+// target alone. Where TEXTPLANE_TARGET fixes a target (dispatch.hpp), a translation unit builds only what that one
+// needs.
 //
 // Compiled kernels, an option: every file that calls a kernel compiles all its targets, which takes time. Where
 // TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see only declarations of kernels and solvers, and
@@ -25,64 +25,7 @@
 #define TEXTPLANE_SIMD_TARGETS_HPP
 
 #include "textplane/config.hpp"
-
-#if defined(TEXTPLANE_EXTERN_KERNELS) && !defined(TEXTPLANE_DEFINE_KERNELS)
-#define TEXTPLANE_HAS_KERNELS 0
-#else
-#define TEXTPLANE_HAS_KERNELS 1
-#endif
-
-// What a target may need of compiler and machine: TEXTPLANE_SIMD_ON_<need> is 1 where they offer it.
-#define TEXTPLANE_SIMD_ON_any 1
-#define TEXTPLANE_SIMD_ON_x86 0
-#define TEXTPLANE_SIMD_ON_x86_wide 0
-#define TEXTPLANE_SIMD_ON_arm 0
-#define TEXTPLANE_SIMD_ON_wasm 0
-#if defined(__GNUC__) || defined(__clang__)
-#if defined(__x86_64__)
-#if TEXTPLANE_HAS_KERNELS
-#include <immintrin.h>
-// For MSVC's target Clang's <immintrin.h> leaves out what the command line does not ask for. Their order matters.
-#if defined(_MSC_VER)
-// clang-format off
-#include <pmmintrin.h>
-#include <tmmintrin.h>
-#include <smmintrin.h>
-#include <popcntintrin.h>
-#include <avxintrin.h>
-#include <avx2intrin.h>
-#include <fmaintrin.h>
-#include <avx512fintrin.h>
-#include <avx512vlintrin.h>
-#include <avx512bwintrin.h>
-#include <avx512dqintrin.h>
-#include <avx512vlbwintrin.h>
-#include <avx512vldqintrin.h>
-#include <avx512vnniintrin.h>
-#include <avx512vlvnniintrin.h>
-// clang-format on
-#endif
-#endif
-#undef TEXTPLANE_SIMD_ON_x86
-#define TEXTPLANE_SIMD_ON_x86 1
-#if defined(__clang__) || defined(TEXTPLANE_UNALIGNED_VECTOR_MOVES) || !(defined(_WIN32) || defined(__CYGWIN__))
-#undef TEXTPLANE_SIMD_ON_x86_wide
-#define TEXTPLANE_SIMD_ON_x86_wide 1
-#endif
-#elif defined(__aarch64__) && defined(__ARM_NEON) && !defined(__AARCH64EB__)
-#if TEXTPLANE_HAS_KERNELS
-#include <arm_neon.h>
-#endif
-#undef TEXTPLANE_SIMD_ON_arm
-#define TEXTPLANE_SIMD_ON_arm 1
-#elif defined(__wasm_simd128__)
-#if TEXTPLANE_HAS_KERNELS
-#include <wasm_simd128.h>
-#endif
-#undef TEXTPLANE_SIMD_ON_wasm
-#define TEXTPLANE_SIMD_ON_wasm 1
-#endif
-#endif
+#include "textplane/simd/compiler.hpp"
 
 // A test may define TEXTPLANE_EMULATED_AVX512 as a header that emulates the intrinsics: avx512 is then built for AVX2.
 #define TEXTPLANE_SIMD_HASWELL "sse4.1,avx,avx2,fma,popcnt"
@@ -151,17 +94,6 @@
   || (TEXTPLANE_SIMD_ON_##needs && ((a) >> number & 1))
 
 // TEXTPLANE_SIMD_BEGIN and TEXTPLANE_SIMD_END, Xs of the table, go around a region.
-#define TEXTPLANE_SIMD_TEXT_(text) #text
-#define TEXTPLANE_SIMD_TEXT(text) TEXTPLANE_SIMD_TEXT_(text)
-#if defined(__clang__)
-#define TEXTPLANE_SIMD_FEATURES_BEGIN(features) \
-  _Pragma(TEXTPLANE_SIMD_TEXT(clang attribute push(__attribute__((target(features))), apply_to = function)))
-#define TEXTPLANE_SIMD_FEATURES_END _Pragma("clang attribute pop")
-#else
-#define TEXTPLANE_SIMD_FEATURES_BEGIN(features) \
-  _Pragma("GCC push_options") _Pragma(TEXTPLANE_SIMD_TEXT(GCC target(features)))
-#define TEXTPLANE_SIMD_FEATURES_END _Pragma("GCC pop_options")
-#endif
 #define TEXTPLANE_SIMD_BEGIN_any(features)
 #define TEXTPLANE_SIMD_BEGIN_x86(features) TEXTPLANE_SIMD_FEATURES_BEGIN(features)
 #define TEXTPLANE_SIMD_BEGIN_x86_wide(features) TEXTPLANE_SIMD_FEATURES_BEGIN(features)
@@ -174,41 +106,6 @@
 #define TEXTPLANE_SIMD_END_wasm
 #define TEXTPLANE_SIMD_BEGIN(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_BEGIN_##needs(features)
 #define TEXTPLANE_SIMD_END(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_END_##needs
-
-// Clang keeps -ffinite-math-only in functions that a pragma asks to be precise. It may then swap the operands of a
-// minimum, and a NaN would get past a clamp. So the operations hide their minima and maxima from it in assembly.
-#if defined(__clang__) && defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
-#define TEXTPLANE_SIMD_HIDE_MINIMA 1
-#else
-#define TEXTPLANE_SIMD_HIDE_MINIMA 0
-#endif
-
-// Building blocks of a region and its entry points.
-#if defined(__GNUC__) || defined(__clang__)
-#define TEXTPLANE_SIMD_INLINE inline __attribute__((always_inline))
-#define TEXTPLANE_SIMD_ENTRY inline __attribute__((noinline))
-#define TEXTPLANE_SIMD_RESTRICT __restrict__
-#define TEXTPLANE_SIMD_PREFETCH(p) __builtin_prefetch(p)
-#define TEXTPLANE_SIMD_UNROLL _Pragma("GCC unroll 8")  // g++ keeps such loops at -O2, and their arrays in memory
-#define TEXTPLANE_SIMD_SQRT __builtin_sqrtf
-#define TEXTPLANE_SIMD_FLOOR __builtin_floorf
-#define TEXTPLANE_SIMD_ABS __builtin_fabsf
-#else
-#include <cmath>
-#if defined(_MSC_VER)
-#define TEXTPLANE_SIMD_INLINE __forceinline
-#define TEXTPLANE_SIMD_RESTRICT __restrict
-#else
-#define TEXTPLANE_SIMD_INLINE inline
-#define TEXTPLANE_SIMD_RESTRICT
-#endif
-#define TEXTPLANE_SIMD_ENTRY inline
-#define TEXTPLANE_SIMD_PREFETCH(p) static_cast<void>(p)
-#define TEXTPLANE_SIMD_UNROLL
-#define TEXTPLANE_SIMD_SQRT ::std::sqrt
-#define TEXTPLANE_SIMD_FLOOR ::std::floor
-#define TEXTPLANE_SIMD_ABS ::std::fabs
-#endif
 
 TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {

@@ -8,7 +8,7 @@ enum WarpKind : int { kWarp8F, kWarp88, kWarpFF };
 // A finite double, by its bits: -ffast-math cannot fold it away.
 TEXTPLANE_SIMD_INLINE bool warp_finite(double x) noexcept {
   std::uint64_t word = 0;
-  __builtin_memcpy(&word, &x, sizeof word);
+  TEXTPLANE_SIMD_COPY(&word, &x, sizeof word);
   return (word & 0x7ff0000000000000ULL) != 0x7ff0000000000000ULL;
 }
 
@@ -37,7 +37,7 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
     const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
-    const double reach = __builtin_fabs(px - t->ox) + __builtin_fabs(py - t->oy) + 1.0;
+    const double reach = TEXTPLANE_SIMD_ABS_D(px - t->ox) + TEXTPLANE_SIMD_ABS_D(py - t->oy) + 1.0;
     inside = inside && q * (0.5 * margin) > 3e-7 * size * reach && px >= margin && py >= margin &&
              px <= a.width - 1 - margin && py <= a.height - 1 - margin;
     x_low = px < x_low ? px : x_low;
@@ -54,8 +54,8 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
   const double ny1 = y[1] * (z[0] + bottom * z[2]) - (y[0] + bottom * y[2]) * z[1];
   t->leftwards = nx0 < 0.0;
   t->upwards = ny0 + ny1 < 0.0;
-  const double ax0 = __builtin_fabs(nx0), ax1 = __builtin_fabs(nx1), ay0 = __builtin_fabs(ny0),
-               ay1 = __builtin_fabs(ny1);
+  const double ax0 = TEXTPLANE_SIMD_ABS_D(nx0), ax1 = TEXTPLANE_SIMD_ABS_D(nx1), ay0 = TEXTPLANE_SIMD_ABS_D(ny0),
+               ay1 = TEXTPLANE_SIMD_ABS_D(ny1);
   const double steep = ay0 > ay1 ? ay0 : ay1, wide = ax0 > ax1 ? ax0 : ax1, narrow = ax0 < ax1 ? ax0 : ax1;
   const double z2_low = z_low * z_low, z2_high = z_high * z_high;
   // At most 15 pixels wide over 8 lanes, and far from standing still, where rounding could reverse the order.
@@ -73,8 +73,8 @@ TEXTPLANE_SIMD_INLINE WarpBlock warp_block(const simd::WarpArgs& a, int first_x,
   const double cx = first_x + t.columns / 2, cy = first_y + t.rows / 2;
   const double x[3] = {h[0] * cx + h[1] * cy + h[2], h[0], h[1]}, y[3] = {h[3] * cx + h[4] * cy + h[5], h[3], h[4]};
   const double z[3] = {h[6] * cx + h[7] * cy + h[8], h[6], h[7]};
-  const double size =
-      __builtin_fabs(z[0]) + kWarpBlockWidth * __builtin_fabs(z[1]) + kWarpBlockHeight * __builtin_fabs(z[2]);
+  const double size = TEXTPLANE_SIMD_ABS_D(z[0]) + kWarpBlockWidth * TEXTPLANE_SIMD_ABS_D(z[1]) +
+                      kWarpBlockHeight * TEXTPLANE_SIMD_ABS_D(z[2]);
   const double s = size > 0.0 ? 1.0 / size : 0.0;
   const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
   t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
@@ -169,8 +169,8 @@ TEXTPLANE_SIMD_INLINE void warp_fetch(const std::uint8_t* origin, std::ptrdiff_t
   for (int i = 0; i < n; ++i) {
     const std::uint8_t* p = origin + s->offset[i];
     if (kind == kWarpFF) {
-      __builtin_memcpy(s->upper + 2 * i, p, 8);
-      __builtin_memcpy(s->lower + 2 * i, p + stride, 8);
+      TEXTPLANE_SIMD_COPY(s->upper + 2 * i, p, 8);
+      TEXTPLANE_SIMD_COPY(s->lower + 2 * i, p + stride, 8);
     } else {
       s->taps[i] = warp_cell_taps(p, stride);
     }

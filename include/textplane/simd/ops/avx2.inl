@@ -6,6 +6,7 @@
 constexpr int kLanes = 8;
 constexpr bool kManyRegisters = false;
 using vf = __m256;
+TEXTPLANE_SIMD_OPERATORS(__m256, _mm256, ps)
 using vi = __m256i;
 using vm = __m256;  // all bits of a lane
 
@@ -19,7 +20,7 @@ TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm256_setr_epi32(0, 1, 2, 3, 
 TEXTPLANE_SIMD_INLINE __m256i first_n_bits(int n) noexcept { return _mm256_cmpgt_epi32(_mm256_set1_epi32(n), ioti()); }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm256_loadu_ps(p); }
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
-  __asm__("" : "+x"(v));
+  TEXTPLANE_SIMD_HOLD("+x", v);
   return v;
 }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm256_storeu_ps(p, v); }
@@ -197,6 +198,7 @@ TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm256_cvtepi16_e
 // --- doubles ---
 enum : int { kDoubles = 4 };
 using vp = __m256d;
+TEXTPLANE_SIMD_OPERATORS(__m256d, _mm256, pd)
 struct vd {
   vp part[2];
 };

@@ -7,6 +7,7 @@
 constexpr int kLanes = 16;
 constexpr bool kManyRegisters = true;  // 32
 using vf = __m512;
+TEXTPLANE_SIMD_OPERATORS(__m512, _mm512, ps)
 using vi = __m512i;
 using vm = __mmask16;
 constexpr vm kFull = 0xffff;
@@ -24,9 +25,7 @@ TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept {
 }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm512_loadu_ps(p); }
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
-#if !defined(TEXTPLANE_EMULATED_AVX512)
-  __asm__("" : "+v"(v));
-#endif
+  TEXTPLANE_SIMD_HOLD("+v", v);
   return v;
 }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm512_storeu_ps(p, v); }
@@ -211,6 +210,7 @@ TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm512_maskz_cvte
 // --- doubles ---
 enum : int { kDoubles = 8 };
 using vp = __m512d;
+TEXTPLANE_SIMD_OPERATORS(__m512d, _mm512, pd)
 struct vd {
   vp part[1];
 };

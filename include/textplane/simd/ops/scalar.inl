@@ -36,7 +36,7 @@ TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
 #if TEXTPLANE_SIMD_HIDE_MINIMA
 TEXTPLANE_SIMD_INLINE bool is_nan_(vf a) noexcept {
   unsigned word = 0;
-  __builtin_memcpy(&word, &a, sizeof word);
+  TEXTPLANE_SIMD_COPY(&word, &a, sizeof word);
   return (word & 0x7fffffffu) > 0x7f800000u;
 }
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return is_nan_(a) || is_nan_(b) || !(a < b) ? b : a; }
@@ -124,7 +124,7 @@ TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept {
 }
 
 // --- one number ---
-TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return __builtin_sqrt(a); }
+TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return TEXTPLANE_SIMD_SQRT_D(a); }
 // The number of the lowest bit that is set; bits != 0.
 TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept {
   int bit = 0;
@@ -252,8 +252,8 @@ TEXTPLANE_SIMD_INLINE void store_p(double* p, vp v) noexcept { *p = v; }
 TEXTPLANE_SIMD_INLINE vp madd_p(vp a, vp b, vp c) noexcept { return a * b + c; }  // fused where madd() is
 TEXTPLANE_SIMD_INLINE vp min_p(vp a, vp b) noexcept { return a < b ? a : b; }     // b where either is NaN
 TEXTPLANE_SIMD_INLINE vp max_p(vp a, vp b) noexcept { return a > b ? a : b; }
-TEXTPLANE_SIMD_INLINE vp abs_p(vp a) noexcept { return __builtin_fabs(a); }
-TEXTPLANE_SIMD_INLINE vp trunc_p(vp a) noexcept { return __builtin_trunc(a); }
+TEXTPLANE_SIMD_INLINE vp abs_p(vp a) noexcept { return TEXTPLANE_SIMD_ABS_D(a); }
+TEXTPLANE_SIMD_INLINE vp trunc_p(vp a) noexcept { return TEXTPLANE_SIMD_TRUNC_D(a); }
 // a where m > 0, else b.
 TEXTPLANE_SIMD_INLINE vp positive_p(vp m, vp a, vp b) noexcept { return m > 0 ? a : b; }
 // Rounded to float.

@@ -6,6 +6,7 @@
 constexpr int kLanes = 4;
 constexpr bool kManyRegisters = false;
 using vf = __m128;
+TEXTPLANE_SIMD_OPERATORS(__m128, _mm, ps)
 using vi = __m128i;
 using vm = __m128;  // all bits of a lane
 
@@ -16,7 +17,7 @@ TEXTPLANE_SIMD_INLINE vf iota() noexcept { return _mm_setr_ps(0.0f, 1.0f, 2.0f, 
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm_setr_epi32(0, 1, 2, 3); }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm_loadu_ps(p); }
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
-  __asm__("" : "+x"(v));
+  TEXTPLANE_SIMD_HOLD("+x", v);
   return v;
 }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm_storeu_ps(p, v); }
@@ -189,6 +190,7 @@ TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm_cvtepi16_epi3
 // --- doubles ---
 enum : int { kDoubles = 2 };
 using vp = __m128d;
+TEXTPLANE_SIMD_OPERATORS(__m128d, _mm, pd)
 struct vd {
   vp part[4];
 };
@@ -241,7 +243,7 @@ TEXTPLANE_SIMD_INLINE void load2(const float* p, vf* a, vf* b) noexcept {
 TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept {
   const __m128i pick = _mm_set_epi8(-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, 12, 8, 4, 0);
   const int word = _mm_cvtsi128_si32(_mm_shuffle_epi8(v, pick));
-  __builtin_memcpy(p, &word, 4);
+  TEXTPLANE_SIMD_COPY(p, &word, 4);
 }
 
 #include "textplane/simd/ops/few_bytes.inl"

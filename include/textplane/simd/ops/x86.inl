@@ -29,7 +29,7 @@ TEXTPLANE_SIMD_INLINE int sum_of_four(__m128i v) noexcept {
 // --- gathers: inserts beat the instructions and the way through general registers ---
 TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
   std::uint64_t pair;
-  __builtin_memcpy(&pair, offset, 8);
+  TEXTPLANE_SIMD_COPY(&pair, offset, 8);
   return pair;
 }
 TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept {
@@ -74,4 +74,4 @@ TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint
   store128(taps, v);
 }
 TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set1_pd(a))); }
-TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
+TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return TEXTPLANE_SIMD_LOWEST_BIT(bits); }
