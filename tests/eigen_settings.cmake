@@ -1,11 +1,9 @@
 # SOURCE prints the same with each of Eigen's settings, a program each: two in one program are Eigen's own business.
-# cmake -DCOMPILER= -DFLAGS= -DSOURCE= -DOBJECTS=<prefix> -DALL=<all settings, not three> -P eigen_settings.cmake
+# cmake -DCOMPILER= -DFLAGS= -DSOURCE= -DOBJECTS=<prefix> -P eigen_settings.cmake
 cmake_minimum_required(VERSION 3.21)
 separate_arguments(FLAGS)
-set(settings none EIGEN_DEFAULT_TO_ROW_MAJOR EIGEN_DONT_ALIGN_STATICALLY)
-if(ALL)
-  list(APPEND settings EIGEN_DONT_ALIGN EIGEN_MAX_STATIC_ALIGN_BYTES=32 EIGEN_MAX_ALIGN_BYTES=64 EIGEN_DONT_VECTORIZE)
-endif()
+set(settings none EIGEN_DEFAULT_TO_ROW_MAJOR EIGEN_DONT_ALIGN_STATICALLY EIGEN_DONT_ALIGN EIGEN_MAX_STATIC_ALIGN_BYTES=32
+  EIGEN_MAX_ALIGN_BYTES=64 EIGEN_DONT_VECTORIZE)
 foreach(setting IN LISTS settings)
   set(definition)
   if(NOT setting STREQUAL "none")

@@ -64,7 +64,11 @@ class Wall {
           const Eigen::Vector2d px(x + (k % kSamples - 1) / 3.0, y + (k / kSamples - 1) / 3.0);
           const Eigen::Vector3d ray = T_w_c.R * camera.unproject(px);
           Eigen::Vector3d p = T_w_c.t + (3 - T_w_c.t.z()) / ray.z() * ray;
-          for (int i = 0; relief && i < 20; ++i) p = T_w_c.t + (3 + relief(p.x()) - T_w_c.t.z()) / ray.z() * ray;
+          for (int i = 0; relief && i < 20; ++i) {
+            const Eigen::Vector3d next = T_w_c.t + (3 + relief(p.x()) - T_w_c.t.z()) / ray.z() * ray;
+            if (next == p) break;  // so it stays
+            p = next;
+          }
           const bool meets = ray.z() > 0 && p.norm() < 1e6;  // not so where a ray runs along a bent wall
           sum += meets ? ink(p.x(), p.y()) : 0;
         }
