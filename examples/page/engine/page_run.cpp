@@ -34,10 +34,6 @@ Image<std::uint8_t> copy_of(ImageView8 image) {
   return copy;
 }
 
-std::string size_text(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
-
-}  // namespace
-
 // Where a network answers later than a reader may, the texts are read twice in the same order: first for the pictures,
 // then with the answers.
 class PictureTaker : public TextReader {
@@ -60,6 +56,10 @@ class ReadingGiver : public TextReader {
  private:
   std::vector<Reading>::const_iterator next_;
 };
+
+std::string size_text(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
+
+}  // namespace
 
 // The frames that self-calibration maps again and again.
 class KeptFrames : public VideoFile {
@@ -195,6 +195,7 @@ Json PageRun::finish(const std::string& folder) {
   const Fields fields = describe(summary);
   std::vector<std::string> lines = warnings(summary);
   const std::string map = write_map(folder, &lines);
+  if (localise_ && !session_->system().is_in_earlier()) lines.push_back(map_ + ": no frame was found in this map");
   return {{"metrics", fields.file},
           {"table", fields.table},
           {"warnings", lines},
