@@ -124,14 +124,16 @@ RunSummary Session::summary() {
   return summary;
 }
 
-void Session::save(const std::string& folder) {
+std::string Session::save(const std::string& folder) {
   create_output_folder(folder);
   const auto image = [this](int index) { return image_name(index); };
   write_outputs(folder, system_, summary(), image);
-  if (options_.localise) map_.save(system_, sequence_.camera, {"", folder, std::nullopt, image});
+  std::string unmapped;
+  if (options_.localise) unmapped = map_.save(system_, sequence_.camera, {"", folder, std::nullopt, image});
   if (options_.calibration) write_file(folder + "/camera.yaml", camera_yaml(sequence_.camera, options_.calibration));
   const std::string page = report();
   if (!page.empty()) write_file(folder + "/report.html", page);
+  return unmapped;
 }
 
 std::string Session::image_name(int index) const {

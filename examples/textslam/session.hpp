@@ -51,9 +51,10 @@ class Session {
   bool finished() const { return finished_; }
   /// Ends the run and reads the mapped texts once more, as text/text_reading.hpp says.
   void read_texts(TextReader& reader);
-  /// Ends the run and writes the files of report/outputs.hpp, the report too unless it would be empty, and an
-  /// estimated camera as camera.yaml. Throws std::runtime_error where it cannot.
-  void save(const std::string& folder);
+  /// Ends the run and writes the files of report/outputs.hpp, the report too unless it would be empty, an estimated
+  /// camera as camera.yaml, and of a run that only localises localisation.csv. Returns one line where that found no
+  /// frame in its map. Throws std::runtime_error where it cannot write.
+  std::string save(const std::string& folder);
   /// Ends the run and writes its map (map_file/map_file.hpp); without a path into the map that it began in. Returns one
   /// line where no frame was found in that map; what the run made is then in unjoined_map.db beside `path`. Throws
   /// std::invalid_argument where there is no path, no map, or the run only localises, and what save_map() throws.

@@ -15,6 +15,7 @@
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
+#include "exchange.hpp"
 #include "io/image_codecs.hpp"
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
@@ -36,14 +37,6 @@ Image<std::uint8_t> decode(const std::string& bytes, const std::string& path) {
   for (int y = 0; y < height; ++y)
     std::copy_n(pixels.get() + static_cast<std::ptrdiff_t>(y) * width, width, image.row(y));
   return image;
-}
-
-std::vector<std::uint8_t> packed(ImageView8 image) {
-  if (!image.valid()) throw std::invalid_argument("encode: the view is not valid");
-  std::vector<std::uint8_t> pixels;
-  pixels.reserve(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
-  for (int y = 0; y < image.height(); ++y) pixels.insert(pixels.end(), image.row(y), image.row(y) + image.width());
-  return pixels;
 }
 
 void append(void* out, void* bytes, int size) {

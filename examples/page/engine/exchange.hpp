@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,15 @@ inline void to_grey(int count) {
 
 /// The grey image there.
 inline ImageView8 grey_view(int width, int height) { return {exchange().pixels.data(), width, height, width}; }
+
+/// The pixels of an image, row by row.
+inline std::vector<std::uint8_t> packed(ImageView8 image) {
+  if (!image.valid()) throw std::invalid_argument("packed: the view is not valid");
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
+  for (int y = 0; y < image.height(); ++y) pixels.insert(pixels.end(), image.row(y), image.row(y) + image.width());
+  return pixels;
+}
 
 /// What `call` returns, as a string that is good until the next answer; {"error": "..."} where it threw, so that no
 /// exception leaves the module.

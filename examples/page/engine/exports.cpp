@@ -117,9 +117,7 @@ EMSCRIPTEN_KEEPALIVE const char* page_picture(int index) {
   return answer([&] {
     const TextPicture& picture = module().run->picture(static_cast<std::size_t>(index));
     const ImageView8 view = picture.image.view();
-    std::vector<std::uint8_t>& pixels = exchange().pixels;
-    pixels.clear();
-    for (int y = 0; y < view.height(); ++y) pixels.insert(pixels.end(), view.row(y), view.row(y) + view.width());
+    exchange().pixels = packed(view);
     return Json{{"width", view.width()}, {"height", view.height()}, {"quad", quad_json(picture.quad)}};
   });
 }

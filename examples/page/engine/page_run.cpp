@@ -190,12 +190,12 @@ std::string PageRun::write_map(const std::string& folder, std::vector<std::strin
 }
 
 Json PageRun::finish(const std::string& folder) {
-  session_->save(folder);
+  const std::string unmapped = session_->save(folder);
   const RunSummary summary = session_->summary();
   const Fields fields = describe(summary);
   std::vector<std::string> lines = warnings(summary);
   const std::string map = write_map(folder, &lines);
-  if (localise_ && !session_->system().is_in_earlier()) lines.push_back(map_ + ": no frame was found in this map");
+  if (!unmapped.empty()) lines.push_back(unmapped);
   return {{"metrics", fields.file},
           {"table", fields.table},
           {"warnings", lines},
