@@ -24,17 +24,18 @@ packages_build='cmake g++ make libeigen3-dev'
 packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-dev libpng-dev libstb-dev libcli11-dev
   nlohmann-json3-dev libyaml-cpp-dev libsqlite3-dev fonts-dejavu-core fonts-dejavu-extra"
 # npm comes with some builds of node; Debian's package of it is refused beside these.
+apt_helper=/usr/lib/apt/apt-helper
 package_npm=$(command -v npm >/dev/null 2>&1 || echo npm)
-packages_page="cmake g++ make libeigen3-dev emscripten node-acorn $package_npm nlohmann-json3-dev libstb-dev"
+packages_page="cmake g++ make libeigen3-dev emscripten node-acorn $package_npm nlohmann-json3-dev libstb-dev xz-utils"
 packages_test="$packages_build libgtest-dev"
 packages_ci="$packages_demo ninja-build libgtest-dev libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user
-  libsimde-dev g++-aarch64-linux-gnu googletest chromium valgrind doxygen
+  libsimde-dev g++-aarch64-linux-gnu googletest valgrind doxygen
   clang-format pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel
   python3-pip python3-pytest mypy"
-packages_all="$packages_ci pandoc libjs-katex fonts-katex python3-sympy python3-matplotlib libpq-dev postgresql libtesseract-dev tesseract-ocr-eng gcovr cppcheck clang-tidy g++-12-multilib
+packages_all="$packages_ci chromium pandoc libjs-katex fonts-katex python3-sympy python3-matplotlib libpq-dev postgresql libtesseract-dev tesseract-ocr-eng gcovr python3-pytest-cov cppcheck clang-tidy g++-12-multilib
   g++-11-s390x-linux-gnu g++-riscv64-linux-gnu lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32
-  clang-19 lld-19 libclang-rt-19-dev-wasm32 nodejs
-  g++-mingw-w64-x86-64-posix wine64 wine emscripten node-acorn $package_npm ffmpeg
+  clang-19 lld-19 libclang-rt-19-dev-wasm32 nodejs g++-11 clang-13 clang-15 clang-16 debootstrap
+  g++-mingw-w64-x86-64-posix wine64 wine emscripten node-acorn $package_npm xz-utils ffmpeg
   lintian colcon python3-colcon-ros python3-colcon-recursive-crawl"
 
 say() { printf '\n== %s\n' "$*"; }
@@ -116,9 +117,23 @@ get_sqlite() {
   rm -r "$sqlite/package"
 }
 
+# get_yaml_cpp: its source (MIT), for the page, as Debian 12 compiles it.
+get_yaml_cpp() {
+  yaml_cpp=$root/build/yaml-cpp
+  if [ -d "$yaml_cpp/src" ]; then return 0; fi
+  mkdir -p "$yaml_cpp"
+  [ -x "$apt_helper" ] || die "no apt here: unpack yaml-cpp's source to $yaml_cpp"
+  "$apt_helper" download-file "http://deb.debian.org/debian/pool/main/y/yaml-cpp/yaml-cpp_0.7.0+dfsg.orig.tar.xz" \
+    "$yaml_cpp/source.tar.xz" SHA256:dc63708605404e0b963e0ca3a9619d1c8270eda2839603e6fa0384e5e51e5312 ||
+    die "could not fetch yaml-cpp's source"
+  tar -xJf "$yaml_cpp/source.tar.xz" -C "$yaml_cpp" --strip-components 1
+  rm "$yaml_cpp/source.tar.xz"
+}
+
 # build_page: the preset page. A node that is not Debian's looks elsewhere for Debian's modules, which Emscripten needs.
 build_page() {
   export NODE_PATH="${NODE_PATH:-/usr/share/nodejs}"
   get_sqlite
+  get_yaml_cpp
   cmake -S "$root" --preset page && cmake --build "$root/build/page" --target page --parallel "$jobs"
 }
