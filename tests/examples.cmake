@@ -73,7 +73,8 @@ function(textplane_add_program_test name)
   add_executable(${name} programs/${name}.cpp)
   target_link_libraries(${name} PRIVATE textplane_textslam GTest::gtest GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
-  target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-O0>)  # they start programs and read what those write
+  target_compile_options(${name} PRIVATE ${unoptimised})  # they start programs and read what those write
+  target_precompile_headers(${name} REUSE_FROM textplane_test_unoptimised)
   target_compile_definitions(${name} PRIVATE TEXTSLAM_PROGRAM="$<TARGET_FILE:textslam>"
     TEXTSLAM_EVAL_PROGRAM="$<TARGET_FILE:textslam-eval>" TEXTSLAM_MAP_PROGRAM="$<TARGET_FILE:textslam-map>")
   add_dependencies(${name} textslam textslam-eval textslam-map)
@@ -133,8 +134,8 @@ if(TARGET foreign_tracker)
   textplane_label(examples.odometry programs)
 endif()
 
-# The script of the experiments, with a stand-in for textslam; readers of other libraries on textslam's outputs; and the
-# report in a browser, where there is one: the pages that two other tests made.
+# The script of the experiments, with a stand-in for textslam; readers of other libraries on textslam's outputs; and in
+# --all the report in a browser, where there is one: the pages that two other tests made.
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(NOT Python3_FOUND)
   return()
@@ -148,7 +149,9 @@ textplane_label(examples.sessions_experiments programs)
 add_test(NAME examples.foreign_readers COMMAND ${Python3_EXECUTABLE} ${programs}/foreign_readers_test.py $<TARGET_FILE:textslam>)
 set_tests_properties(examples.foreign_readers PROPERTIES SKIP_RETURN_CODE 77)
 textplane_label(examples.foreign_readers programs)
-add_test(NAME examples.viewers COMMAND ${Python3_EXECUTABLE} ${programs}/viewers_test.py ${PROJECT_SOURCE_DIR} $<TARGET_FILE:textslam>)
+add_test(NAME examples.viewers COMMAND ${Python3_EXECUTABLE} ${programs}/viewers_test.py ${PROJECT_SOURCE_DIR} $<TARGET_FILE:textslam>
+  ${rendered}/sequence)
+set_tests_properties(examples.viewers PROPERTIES FIXTURES_REQUIRED rendered)
 textplane_label(examples.viewers programs)
 if(TARGET textslam_report_test)
   set(reports ${CMAKE_CURRENT_BINARY_DIR}/reports)
@@ -156,6 +159,8 @@ if(TARGET textslam_report_test)
     target_compile_definitions(${made} PRIVATE TEXTSLAM_REPORTS="${reports}")
     set_tests_properties(examples.${made} PROPERTIES FIXTURES_SETUP reports)
   endforeach()
+endif()
+if(TARGET textslam_report_test AND TEXTPLANE_TEST_LONG)
   add_test(NAME examples.report_browser COMMAND ${Python3_EXECUTABLE} ${programs}/report_browser_test.py ${reports})
   set_tests_properties(examples.report_browser PROPERTIES FIXTURES_REQUIRED reports SKIP_RETURN_CODE 77 TIMEOUT 1200)
   textplane_label(examples.report_browser programs)

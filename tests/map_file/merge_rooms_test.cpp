@@ -4,6 +4,7 @@
 #include "io/evaluate.hpp"
 #include "io/io_support.hpp"
 #include "renderer/render_sequence.hpp"
+#include "support/long_test.hpp"
 #include "textslam/run.hpp"
 #include "textslam_map/map_queries.hpp"
 #include "textslam_map/merge_maps.hpp"
@@ -54,6 +55,7 @@ class MergeRooms : public testing::Test {
 };
 
 TEST_F(MergeRooms, TwoWalksAreOneMap) {
+  TEXTPLANE_LONG_TEST();
   map_walk("first", 1, 0, 80);
   map_walk("second", 1, 1, 80);
   const std::string out = path("merged.db"), said = merge_map_files(path("first.db"), path("second.db"), out);

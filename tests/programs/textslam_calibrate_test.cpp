@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "programs/textslam_input.hpp"
+#include "support/long_test.hpp"
 
 namespace textslam {
 namespace {
@@ -57,6 +58,7 @@ CameraModel without_a_part(const CameraModel& camera) {
 // The map says that the calibration is off, and is made again. It keeps the mended camera, and takes later sessions
 // with the file that it mended.
 TEST_F(TextslamInput, ACalibrationThatIsOffIsMended) {
+  TEXTPLANE_LONG_TEST();
   render(sequence(), "uncalibrated", 120, 320);
   write("camera.yaml", format_camera(without_a_part(read_camera(sequence("true_camera.yaml")))));
   expect_success(run({"--no-calibrate"}));

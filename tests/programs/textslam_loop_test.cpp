@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "programs/textslam_support.hpp"
+#include "support/long_test.hpp"
 
 namespace textslam {
 namespace {
@@ -63,6 +64,7 @@ TEST_F(TextslamLoop, IsClosedAndReported) {
 }
 
 TEST_F(TextslamLoop, StaysOpenWhenTold) {
+  TEXTPLANE_LONG_TEST();
   const ProgramResult result = run("open", {"--no-loop-closure"});
   expect_success(result);
   EXPECT_EQ(result.out.find("loops closed"), std::string::npos) << result.out;
@@ -75,6 +77,7 @@ TEST_F(TextslamLoop, StaysOpenWhenTold) {
 }
 
 TEST_F(TextslamLoop, TheSameBytesTwice) {
+  TEXTPLANE_LONG_TEST();
   expect_success(closed());
   expect_success(run("twice"));
   for (const char* name : kOutputs)

@@ -6,6 +6,7 @@
 #include "io/evaluate.hpp"
 #include "io/image_file.hpp"
 #include "programs/textslam_support.hpp"
+#include "support/long_test.hpp"
 
 namespace textslam {
 namespace {
@@ -130,6 +131,7 @@ TEST_F(TextslamRecovery, MapsOfOneCorridorBecomeOne) {
 }
 
 TEST_F(TextslamRecovery, AnotherRoomIsAnotherMap) {
+  TEXTPLANE_LONG_TEST();
   append(1, 0, 49);
   append_dark(32);
   append(2, 0, 44);

@@ -7,6 +7,7 @@
 #include "io/input_error.hpp"
 #include "io/text_file.hpp"
 #include "programs/sessions_support.hpp"
+#include "support/long_test.hpp"
 #include "textplane/landmarks/words.hpp"
 #include "textslam/map_file/map_file.hpp"
 #include "textslam/text/text_centre.hpp"
@@ -184,6 +185,7 @@ TEST_F(Sessions, AModelOfColmapBecomesAMap) {
 
 // Another room, with other signs: no wrong answer, and no harm to the map.
 TEST_F(Sessions, AnotherRoomIsNotFound) {
+  TEXTPLANE_LONG_TEST();
   RunOptions options = options_for("elsewhere", "out_not_found");
   options.map = path("map.db");
   options.localise = true;

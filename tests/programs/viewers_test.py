@@ -1,5 +1,5 @@
-"""viewers_test.py ROOT TEXTSLAM: the program of docs/viewers.md runs as it stands on a short rendered sequence. It gets a
-stand-in for the package rerun, and what it logs is checked."""
+"""viewers_test.py ROOT TEXTSLAM SEQUENCE: the program of docs/viewers.md runs as it stands. It gets a stand-in for the
+package rerun, and what it logs is checked."""
 import os
 import re
 import subprocess
@@ -35,7 +35,7 @@ def tell(): print("logged", counts.get("camera", 0), "poses", points, "points", 
 '''
 
 
-def main(root, textslam):
+def main(root, textslam, sequence):
     page = (Path(root) / "docs/viewers.md").read_text(encoding="utf-8")
     program = re.search(r"```python\n(.*?)```", page, re.DOTALL).group(1)
     with tempfile.TemporaryDirectory() as folder:
@@ -43,8 +43,8 @@ def main(root, textslam):
         (home / "live.py").write_text(program, encoding="utf-8")
         (home / "rerun.py").write_text(STAND_IN, encoding="utf-8")
         environment = dict(os.environ, PATH=f"{Path(textslam).resolve().parent}{os.pathsep}{os.environ['PATH']}")
-        run = subprocess.run([sys.executable, "live.py", "--render", "room", "--frames", "60", "--output", "out",
-                              "--no-report"], cwd=home, env=environment, capture_output=True, text=True)
+        run = subprocess.run([sys.executable, "live.py", sequence, "--output", "out", "--no-report"], cwd=home, env=environment,
+                             capture_output=True, text=True)
         if run.returncode != 0:
             sys.exit(f"live.py ended with {run.returncode}:\n{run.stdout}{run.stderr}")
         told = re.search(r"logged (\d+) poses (\d+) points (\d+) texts", run.stdout)

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "support/long_test.hpp"
 #include "textslam/system/room_run_support.hpp"
 
 namespace textslam {
@@ -20,6 +21,7 @@ void expect_good(const RunSummary& summary, std::size_t frames) {
 }
 
 TEST(WideRoom, PosesAndPlanesAreThoseOfAPinhole) {
+  TEXTPLANE_LONG_TEST();
   constexpr int kFrames = 80;
   const ShortRoom straight(kFrames), wide(kFrames, "wide");
   ASSERT_TRUE(straight.sequence().camera.is_pinhole());
