@@ -65,6 +65,18 @@ coverage() {
   return $outcome
 }
 
+# Lines of the Python modules that tests/python runs; the package's Python files are a few dozen lines.
+coverage_python() {
+  build=$root/build/coverage-python
+  rm -f "$build/coverage.txt"
+  gcovr -r "$root" --filter "$root/bindings/" --exclude-throw-branches --object-directory "$build" --fail-under-line 95 \
+    -o "$build/coverage.txt" "$build"
+  outcome=$?
+  cat "$build/coverage.txt"
+  sed -n 's/^TOTAL */coverage of the Python modules (lines, run, share): /p' "$build/coverage.txt"
+  return $outcome
+}
+
 # textslam in the browser, driven in headless Chromium.
 page() {
   build_page || return 1
@@ -97,11 +109,18 @@ all_stages() {
   stage fast-math "$library_only" '-L ^fast_math$' "$library_tests"
   stage cxx20 "$library_only" '-L ^library$' "$library_tests"
   stage cxx23 "$library_only" '-L ^library$' "$library_tests"
+  # The newest of everything that Debian has.
+  if needs debian-forky debootstrap; then checked debian-forky "$root/tests/debian/run" forky; fi
   if needs clang-tidy clang-tidy; then checked clang-tidy clang_tidy; fi
   if needs cppcheck cppcheck; then checked cppcheck cpp_check; fi
   if needs coverage gcovr; then
     stage coverage "$library_only" '-L ^library$' "$library_tests"
     checked coverage coverage
+  fi
+  if needs coverage-python gcovr; then
+    find "$root/build/coverage-python" -name '*.gcda' -delete 2>/dev/null || :
+    stage coverage-python '-DTEXTPLANE_BUILD_PYTHON=ON' '-R ^python[.]package$' 'textplane_python python_numbers'
+    checked coverage-python coverage_python
   fi
   checked mutants "$root/tests/mutants/run"
   checked mutants-drawn "$root/tests/mutants/run" --drawn 300 --least 90 --build "$root/build/mutants-drawn"

@@ -32,9 +32,9 @@ packages_ci="$packages_demo ninja-build libgtest-dev libopencv-dev libceres-dev 
   libsimde-dev g++-aarch64-linux-gnu googletest valgrind doxygen
   clang-format pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel
   python3-pip python3-pytest mypy"
-packages_all="$packages_ci chromium pandoc libjs-katex fonts-katex python3-sympy python3-matplotlib libpq-dev postgresql libtesseract-dev tesseract-ocr-eng gcovr python3-pytest-cov cppcheck clang-tidy g++-12-multilib
+packages_all="$packages_ci chromium pandoc libjs-katex fonts-katex python3-sympy python3-matplotlib libpq-dev postgresql libtesseract-dev tesseract-ocr-eng gcovr cppcheck clang-tidy g++-12-multilib
   g++-11-s390x-linux-gnu g++-riscv64-linux-gnu lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32
-  clang-19 lld-19 libclang-rt-19-dev-wasm32 nodejs g++-11 clang-13 clang-15 clang-16 debootstrap
+  clang-19 lld-19 libclang-rt-19-dev-wasm32 nodejs debootstrap
   g++-mingw-w64-x86-64-posix wine64 wine emscripten node-acorn $package_npm xz-utils ffmpeg
   lintian colcon python3-colcon-ros python3-colcon-recursive-crawl"
 

@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 184 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 7701e6235bda0d88
+// Hash of these files: 278225d88f23dbcb
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 7701e6235bda0d88"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 278225d88f23dbcb"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -17859,7 +17859,7 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
 
 // Bounds of the patch's image positions behind a lens, from the border of its box, to the frame.
 TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
-  enum : int { kAll = (kBorder + kMostLanes - 1) / kMostLanes * kMostLanes };
+  enum : int { kAll = (int{kBorder} + kMostLanes - 1) / kMostLanes * kMostLanes };
   const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
   float u[kAll], v[kAll], x[kAll], y[kAll];
   for (int k = 0; k < kAll; ++k) {
@@ -18026,7 +18026,7 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
   return inside;
 }
 TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
-  enum : int { kAll = (kBorder + kMostLanes - 1) / kMostLanes * kMostLanes };
+  enum : int { kAll = (int{kBorder} + kMostLanes - 1) / kMostLanes * kMostLanes };
   const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
   float u[kAll], v[kAll], x[kAll], y[kAll];
   for (int k = 0; k < kAll; ++k) {
@@ -18180,7 +18180,7 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
   return inside;
 }
 TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
-  enum : int { kAll = (kBorder + kMostLanes - 1) / kMostLanes * kMostLanes };
+  enum : int { kAll = (int{kBorder} + kMostLanes - 1) / kMostLanes * kMostLanes };
   const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
   float u[kAll], v[kAll], x[kAll], y[kAll];
   for (int k = 0; k < kAll; ++k) {
@@ -18334,7 +18334,7 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
   return inside;
 }
 TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
-  enum : int { kAll = (kBorder + kMostLanes - 1) / kMostLanes * kMostLanes };
+  enum : int { kAll = (int{kBorder} + kMostLanes - 1) / kMostLanes * kMostLanes };
   const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
   float u[kAll], v[kAll], x[kAll], y[kAll];
   for (int k = 0; k < kAll; ++k) {
@@ -18488,7 +18488,7 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
   return inside;
 }
 TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
-  enum : int { kAll = (kBorder + kMostLanes - 1) / kMostLanes * kMostLanes };
+  enum : int { kAll = (int{kBorder} + kMostLanes - 1) / kMostLanes * kMostLanes };
   const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
   float u[kAll], v[kAll], x[kAll], y[kAll];
   for (int k = 0; k < kAll; ++k) {
@@ -18642,7 +18642,7 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
   return inside;
 }
 TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
-  enum : int { kAll = (kBorder + kMostLanes - 1) / kMostLanes * kMostLanes };
+  enum : int { kAll = (int{kBorder} + kMostLanes - 1) / kMostLanes * kMostLanes };
   const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
   float u[kAll], v[kAll], x[kAll], y[kAll];
   for (int k = 0; k < kAll; ++k) {

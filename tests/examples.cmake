@@ -134,8 +134,17 @@ if(TARGET foreign_tracker)
   textplane_label(examples.odometry programs)
 endif()
 
+# Two tests leave their reports for that in a browser.
+if(TARGET textslam_report_test)
+  set(reports ${CMAKE_CURRENT_BINARY_DIR}/reports)
+  foreach(made textslam_report_test textslam_sessions_test)
+    target_compile_definitions(${made} PRIVATE TEXTSLAM_REPORTS="${reports}")
+    set_tests_properties(examples.${made} PROPERTIES FIXTURES_SETUP reports)
+  endforeach()
+endif()
+
 # The script of the experiments, with a stand-in for textslam; readers of other libraries on textslam's outputs; and in
-# --all the report in a browser, where there is one: the pages that two other tests made.
+# --all the reports in a browser, where there is one.
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(NOT Python3_FOUND)
   return()
@@ -153,13 +162,6 @@ add_test(NAME examples.viewers COMMAND ${Python3_EXECUTABLE} ${programs}/viewers
   ${rendered}/sequence)
 set_tests_properties(examples.viewers PROPERTIES FIXTURES_REQUIRED rendered)
 textplane_label(examples.viewers programs)
-if(TARGET textslam_report_test)
-  set(reports ${CMAKE_CURRENT_BINARY_DIR}/reports)
-  foreach(made textslam_report_test textslam_sessions_test)
-    target_compile_definitions(${made} PRIVATE TEXTSLAM_REPORTS="${reports}")
-    set_tests_properties(examples.${made} PROPERTIES FIXTURES_SETUP reports)
-  endforeach()
-endif()
 if(TARGET textslam_report_test AND TEXTPLANE_TEST_LONG)
   add_test(NAME examples.report_browser COMMAND ${Python3_EXECUTABLE} ${programs}/report_browser_test.py ${reports})
   set_tests_properties(examples.report_browser PROPERTIES FIXTURES_REQUIRED reports SKIP_RETURN_CODE 77 TIMEOUT 1200)

@@ -8,7 +8,7 @@ foreach(package GTest JPEG PNG CLI11 nlohmann_json yaml-cpp SQLite3 pybind11)
 endforeach()
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${TO}/build -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER}
   -DEigen3_DIR=${EIGEN} ${absent} -DSTB_INCLUDE_DIR=STB_INCLUDE_DIR-NOTFOUND OUTPUT_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
-set(expected "textplane: left out: tests \\(no GoogleTest\\); examples \\(no JPEG, PNG, CLI11, nlohmann_json, yaml-cpp, SQLite3\\); the Python package \\(no pybind11\\)")
+set(expected "textplane: left out: tests \\(no GoogleTest\\); examples \\(no JPEG, PNG, CLI11, nlohmann_json, yaml-cpp, SQLite3\\); the Python package \\(no [^)]*pybind11\\)")
 if(NOT said MATCHES "${expected}")
   message(FATAL_ERROR "what is left out is not said: ${said}")
 endif()

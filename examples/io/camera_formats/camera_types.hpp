@@ -4,6 +4,7 @@
 #define TEXTSLAM_IO_CAMERA_FORMATS_CAMERA_TYPES_HPP
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/names.hpp"
@@ -52,7 +53,7 @@ inline const std::vector<CameraType>& camera_types() {
 }
 
 /// The type of a library's model, which is there.
-inline const CameraType& camera_type(const std::string& model) {
+inline const CameraType& camera_type(std::string_view model) {
   for (const CameraType& type : camera_types())
     if (type.model == model) return type;
   return camera_types().front();

@@ -81,6 +81,7 @@ class XmlReader {
       close();
     } else {
       if (content_ == Content::text) refuse("text and the element " + shown(name) + " beside each other");
+      if (content_ == Content::elements) yaml_ += ",";  // none after the last: yaml-cpp 0.9 refuses that
       if (content_ == Content::none && !open_.empty()) yaml_ += "{";
       yaml_ += "'" + name + "': ";
       open_.push_back(name);
@@ -90,7 +91,7 @@ class XmlReader {
     if (!closes && xml_[at_ - 2] == '/') close();
   }
   void close() {
-    yaml_ += content_ == Content::none ? "[]," : content_ == Content::text ? "]," : "},";
+    yaml_ += content_ == Content::none ? "[]" : content_ == Content::text ? "]" : "}";
     open_.pop_back();
     content_ = Content::elements;
   }

@@ -62,7 +62,7 @@ class Statement {
   template <class... Values>
   void bind_all(const Values&... values) {
     reset();
-    int at = 0;
+    [[maybe_unused]] int at = 0;  // without values
     (bind(++at, values), ...);
   }
   /// Goes to the next row; false after the last.

@@ -4,7 +4,7 @@
 // translation first (PoseOrder). PoseManifold moves it by T <- T Exp(xi), xi = (v, omega), as solve_window() does
 // (docs/conventions.md).
 //
-// Tested with Ceres 2.1 alone. Before 2.1 PoseManifold is a ceres::LocalParameterization.
+// Tested with Ceres 2.1 and 2.2. Before 2.1 PoseManifold is a ceres::LocalParameterization.
 #ifndef TEXTPLANE_ADAPTERS_CERES_POSE_HPP
 #define TEXTPLANE_ADAPTERS_CERES_POSE_HPP
 

@@ -148,13 +148,13 @@ inline Status camera_from_cv(const cv::Mat& K, const cv::Mat& D, bool fisheye, A
     d[i] = D.type() == CV_64FC1 ? D.at<double>(row, column) : static_cast<double>(D.at<float>(row, column));
     if (i >= 8 && d[i] != 0) return Status::invalid_argument;
   }
-  AnyCamera<double> out = pinhole;
-  if (fisheye)
-    out = KannalaBrandt<double>{pinhole, d[0], d[1], d[2], d[3]};
-  else if (d[5] != 0 || d[6] != 0 || d[7] != 0)
-    out = Rational<double>{pinhole, d[0], d[1], d[2], d[3], d[4], d[5], d[6], d[7]};
-  else if (n > 0)
-    out = RadialTangential<double>{pinhole, d[0], d[1], d[2], d[3], d[4]};
+  const AnyCamera<double> out = [&]() -> AnyCamera<double> {
+    if (fisheye) return KannalaBrandt<double>{pinhole, d[0], d[1], d[2], d[3]};
+    if (d[5] != 0 || d[6] != 0 || d[7] != 0)
+      return Rational<double>{pinhole, d[0], d[1], d[2], d[3], d[4], d[5], d[6], d[7]};
+    if (n > 0) return RadialTangential<double>{pinhole, d[0], d[1], d[2], d[3], d[4]};
+    return pinhole;
+  }();
   if (!out.valid()) return Status::invalid_argument;
   *camera = out;
   return Status::ok;

@@ -78,7 +78,7 @@ TEST(FrameTurnsTest, RaysAtThePoseAreThoseOfWhatTheRowsShow) {
   for (const Vec2& px : {Vec2(20, 10), Vec2(620, 470), Vec2(300, 239.5)}) {
     const Vec3 ray = ray_at_pose(rolling, px);
     EXPECT_NEAR(ray.z(), 1, 1e-12);
-    Vec2 seen;
+    Vec2 seen = Vec2::Zero();
     ASSERT_TRUE(show(rolling, 5 * ray, &seen));
     EXPECT_LT((seen - px).norm(), 1e-6);
     EXPECT_EQ(ray_at_pose(still, px), ray_of(still, px));

@@ -37,7 +37,7 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
 
 // Bounds of the patch's image positions behind a lens, from the border of its box, to the frame.
 TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
-  enum : int { kAll = (kBorder + kMostLanes - 1) / kMostLanes * kMostLanes };
+  enum : int { kAll = (int{kBorder} + kMostLanes - 1) / kMostLanes * kMostLanes };
   const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
   float u[kAll], v[kAll], x[kAll], y[kAll];
   for (int k = 0; k < kAll; ++k) {
