@@ -81,7 +81,6 @@ class XmlReader {
       close();
     } else {
       if (content_ == Content::text) refuse("text and the element " + shown(name) + " beside each other");
-      if (content_ == Content::elements) yaml_ += ",";  // none after the last: yaml-cpp 0.9 refuses that
       if (content_ == Content::none && !open_.empty()) yaml_ += "{";
       yaml_ += "'" + name + "': ";
       open_.push_back(name);
@@ -91,7 +90,7 @@ class XmlReader {
     if (!closes && xml_[at_ - 2] == '/') close();
   }
   void close() {
-    yaml_ += content_ == Content::none ? "[]" : content_ == Content::text ? "]" : "}";
+    yaml_ += content_ == Content::none ? "[]," : content_ == Content::text ? "]," : "},";
     open_.pop_back();
     content_ = Content::elements;
   }
@@ -99,9 +98,9 @@ class XmlReader {
     std::size_t end = at_;
     while (end < xml_.size() && !is_blank(xml_[end]) && xml_[end] != '<') ++end;
     if (open_.empty() || content_ == Content::elements) refuse("text outside of an element");
-    yaml_ += content_ == Content::none ? "['" : ", '";
+    yaml_ += content_ == Content::none ? "['" : "'";
     for (; at_ < end; ++at_) yaml_ += xml_[at_] == '\'' ? "''" : std::string(1, xml_[at_]);
-    yaml_ += "'";
+    yaml_ += "',";  // yaml-cpp 0.9 takes none at the beginning of a line
     content_ = Content::text;
   }
 
