@@ -24,7 +24,6 @@ packages_build='cmake g++ make libeigen3-dev'
 packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-dev libpng-dev libstb-dev libcli11-dev
   nlohmann-json3-dev libyaml-cpp-dev libsqlite3-dev fonts-dejavu-core fonts-dejavu-extra"
 # npm comes with some builds of node; Debian's package of it is refused beside these.
-apt_helper=/usr/lib/apt/apt-helper
 package_npm=$(command -v npm >/dev/null 2>&1 || echo npm)
 packages_page="cmake g++ make libeigen3-dev emscripten node-acorn $package_npm nlohmann-json3-dev libstb-dev xz-utils"
 packages_test="$packages_build libgtest-dev"
@@ -122,6 +121,7 @@ get_yaml_cpp() {
   yaml_cpp=$root/build/yaml-cpp
   if [ -d "$yaml_cpp/src" ]; then return 0; fi
   mkdir -p "$yaml_cpp"
+  apt_helper=/usr/lib/apt/apt-helper
   [ -x "$apt_helper" ] || die "no apt here: unpack yaml-cpp's source to $yaml_cpp"
   "$apt_helper" download-file "http://deb.debian.org/debian/pool/main/y/yaml-cpp/yaml-cpp_0.7.0+dfsg.orig.tar.xz" \
     "$yaml_cpp/source.tar.xz" SHA256:dc63708605404e0b963e0ca3a9619d1c8270eda2839603e6fa0384e5e51e5312 ||
