@@ -55,25 +55,15 @@ clang_tidy() {
   echo 'clang-tidy: no findings'
 }
 
-# Lines of include/ that the tests of the library run, on all targets of this machine together.
-coverage() {
-  rm -f "$root/build/coverage.txt"
-  gcovr -r "$root" --filter "$root/include/" --exclude '.*/adapters/' --exclude '.*(neon|simd128).*' --exclude-throw-branches \
-    --object-directory "$root/build/coverage" --fail-under-line 95 -o "$root/build/coverage.txt" "$root/build/coverage"
+# covered STAGE WHAT GCOVR_OPTION...: lines that the stage's tests ran, on all targets of this machine together.
+covered() {
+  build=$root/build/$1
+  what=$2
+  shift 2
+  rm -f "$build.txt"
+  gcovr -r "$root" "$@" --exclude-throw-branches --object-directory "$build" --fail-under-line 95 -o "$build.txt" "$build"
   outcome=$?
-  sed -n 's/^TOTAL */coverage of include (lines, run, share): /p' "$root/build/coverage.txt"
-  return $outcome
-}
-
-# Lines of the Python modules that tests/python runs; the package's Python files are a few dozen lines.
-coverage_python() {
-  build=$root/build/coverage-python
-  rm -f "$build/coverage.txt"
-  gcovr -r "$root" --filter "$root/bindings/" --exclude-throw-branches --object-directory "$build" --fail-under-line 95 \
-    -o "$build/coverage.txt" "$build"
-  outcome=$?
-  cat "$build/coverage.txt"
-  sed -n 's/^TOTAL */coverage of the Python modules (lines, run, share): /p' "$build/coverage.txt"
+  sed -n "s/^TOTAL */coverage of $what (lines, run, share): /p" "$build.txt"
   return $outcome
 }
 
@@ -115,12 +105,13 @@ all_stages() {
   if needs cppcheck cppcheck; then checked cppcheck cpp_check; fi
   if needs coverage gcovr; then
     stage coverage "$library_only" '-L ^library$' "$library_tests"
-    checked coverage coverage
+    checked coverage covered coverage include --filter "$root/include/" --exclude '.*/adapters/' --exclude '.*(neon|simd128).*'
   fi
   if needs coverage-python gcovr; then
     find "$root/build/coverage-python" -name '*.gcda' -delete 2>/dev/null || :
     stage coverage-python '-DTEXTPLANE_BUILD_PYTHON=ON' '-R ^python[.]package$' 'textplane_python python_numbers'
-    checked coverage-python coverage_python
+    # The package's Python files are a few dozen lines.
+    checked coverage-python covered coverage-python 'the Python modules' --filter "$root/bindings/"
   fi
   checked mutants "$root/tests/mutants/run"
   checked mutants-drawn "$root/tests/mutants/run" --drawn 300 --least 90 --build "$root/build/mutants-drawn"
