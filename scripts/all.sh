@@ -99,6 +99,7 @@ all_stages() {
   stage fast-math "$library_only" '-L ^fast_math$' "$library_tests"
   stage cxx20 "$library_only" '-L ^library$' "$library_tests"
   stage cxx23 "$library_only" '-L ^library$' "$library_tests"
+  if needs compilers apt-get dpkg-deb; then checked compilers "$root/tests/compilers/run" --older; fi
   # The newest of everything that Debian has.
   if needs debian-forky debootstrap; then checked debian-forky "$root/tests/debian/run" forky; fi
   if needs clang-tidy clang-tidy; then checked clang-tidy clang_tidy; fi

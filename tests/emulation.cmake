@@ -49,7 +49,7 @@ function(textplane_add_kernel_tests program)
   set_source_files_properties(${PROJECT_SOURCE_DIR}/cmake/kernels.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_compile_definitions(${program} PRIVATE TEXTPLANE_EXTERN_KERNELS)
   target_precompile_headers(${program} PRIVATE ${precompiled})
-  set_target_properties(${program} PROPERTIES UNITY_BUILD ${TEXTPLANE_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 8)
+  set_target_properties(${program} PROPERTIES UNITY_BUILD ${TEXTPLANE_UNITY_BUILD})
 endfunction()
 
 # The AVX-512 bodies with emulated intrinsics, on CPUs that have AVX2 only. CI runs the vector operations, of which the

@@ -14,7 +14,7 @@
 #include "textplane/photometry/zncc.hpp"
 
 namespace textplane_test {
-namespace {
+namespace geometry_properties {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -219,7 +219,7 @@ RC_GTEST_PROP(Zncc, IsBoundedSymmetricAndBlindToGainAndBias, ()) {
   RC_ASSERT(std::abs(tp::zncc(b.data(), c.data(), nullptr, n) - 1) < 1e-10);
 }
 
-}  // namespace
+}  // namespace geometry_properties
 }  // namespace textplane_test
 
 // The same states from run to run, unless RC_PARAMS asks for others: RC_PARAMS='seed=7 max_success=100000 noshrink=1'

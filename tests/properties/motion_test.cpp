@@ -8,7 +8,7 @@
 #include "textplane/geometry/homography.hpp"
 
 namespace textplane_test {
-namespace {
+namespace motion_properties {
 
 constexpr double kPi = 3.14159265358979323846;
 using Matrix4 = Eigen::Matrix<double, 4, 4>;
@@ -109,5 +109,5 @@ RC_GTEST_PROP(Motions, RelativePosesMoveAsTheirJacobiansSay, ()) {
     RC_ASSERT(largest(matrix(target.inverse() * T_w_h) - matrix(tp::se3_exp<double>(J.target * xi) * before)) < 1e-11);
   }
 }
-}  // namespace
+}  // namespace motion_properties
 }  // namespace textplane_test

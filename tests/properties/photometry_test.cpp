@@ -13,7 +13,7 @@
 #include "textplane/photometry/residual_policy.hpp"
 
 namespace textplane_test {
-namespace {
+namespace photometry_properties {
 
 constexpr int kWidth = 160, kHeight = 120;
 
@@ -287,5 +287,5 @@ RC_GTEST_PROP(Photometry, PoliciesDifferInDerivativesAlone, ()) {
   }
 }
 
-}  // namespace
+}  // namespace photometry_properties
 }  // namespace textplane_test

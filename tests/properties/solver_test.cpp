@@ -10,7 +10,7 @@
 #include "textplane/solver/pose.hpp"
 
 namespace textplane_test {
-namespace {
+namespace solver_properties {
 
 const tp::Pinhole<double> kCamera{260, 255, 160.3, 118.9};
 
@@ -167,5 +167,5 @@ RC_GTEST_PROP(Steps, ThePoseDoesNotKnowTheUnitOfLength, ()) {
   RC_ASSERT(largest(after.T_t_w.R - before.T_t_w.R) < 1e-6);
 }
 
-}  // namespace
+}  // namespace solver_properties
 }  // namespace textplane_test

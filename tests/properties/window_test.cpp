@@ -12,7 +12,7 @@
 #include "support/random.hpp"
 
 namespace textplane_test {
-namespace {
+namespace window_properties {
 
 const tp::Pinhole<double> kCamera{260, 255, 160.3, 118.9};
 
@@ -165,5 +165,5 @@ RC_GTEST_PROP(Windows, TheReducedSystemIsTheFullOne, ()) {
   RC_ASSERT(std::abs(system.predicted_decrease() - predicted) < 1e-8 * (1 + predicted));
 }
 
-}  // namespace
+}  // namespace window_properties
 }  // namespace textplane_test
