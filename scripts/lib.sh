@@ -1,7 +1,8 @@
 # shellcheck shell=sh disable=SC2034
-# Shared by the scripts of this folder, which source it.
+# Shared by the scripts of this folder and of tests/, which source it.
 
-root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
+# The project's folder: above the script, wherever that is.
+root=$(CDPATH='' cd -- "$(dirname -- "$0")" && while [ ! -e CMakePresets.json ] && [ "$PWD" != / ]; do cd ..; done && pwd)
 jobs=$(nproc 2>/dev/null || getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 # Of a unity build. Large units take less time in all, and more memory each (1.8 GB); small ones keep many processors busy.
 files_in_a_unit=8

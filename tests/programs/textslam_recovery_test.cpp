@@ -21,7 +21,7 @@ std::string stem(int frame) {
   return std::string(6 - digits.size(), '0') + digits;
 }
 
-// Sequences put together from frames of two rendered rooms and of a corridor (number 3), each made when first asked for.
+// Sequences put together from frames of two rendered rooms and of a corridor (number 3), made when first asked for.
 class TextslamRecovery : public testing::Test {
  protected:
   static void SetUpTestSuite() { rooms_ = new TemporaryFolder; }

@@ -46,7 +46,11 @@ struct CvLens {
     const std::vector<cv::Point2d> raw = {{px[0], px[1]}};
     std::vector<cv::Point2d> m, back;
     if (fisheye) {
+#if CV_VERSION_MAJOR * 100 + CV_VERSION_MINOR >= 406
       cv::fisheye::undistortPoints(raw, m, K, D, cv::noArray(), cv::noArray(), stop);
+#else  // it cannot be told when to stop
+      cv::fisheye::undistortPoints(raw, m, K, D);
+#endif
       cv::fisheye::distortPoints(m, back, K, D);
     } else {
       cv::undistortPoints(raw, m, K, D, cv::noArray(), cv::noArray(), stop);
