@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 184 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 278225d88f23dbcb
+// Hash of these files: 22700cfabb99b72c
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 278225d88f23dbcb"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 22700cfabb99b72c"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -29453,7 +29453,7 @@ Collected collect(const ResidualRequest<T>& request, const std::uint8_t* on_set,
   const Vector3<double>& theta = request.theta;
   double H[9];
   for (int k = 0; k < 9; ++k) H[k] = T_t_h.R(k / 3, k % 3) + T_t_h.t[k / 3] * theta[k % 3];
-  const double t[3] = {T_t_h.t[0], T_t_h.t[1], T_t_h.t[2]}, p[3] = {theta[0], theta[1], theta[2]};
+  [[maybe_unused]] const double t[3] = {T_t_h.t[0], T_t_h.t[1], T_t_h.t[2]}, p[3] = {theta[0], theta[1], theta[2]};
   const Pinhole<double> h = request.input.host_camera, c = request.input.target_camera;
   const PatchView patch = request.input.patch;
   const ImageView<const T> image = request.input.target;

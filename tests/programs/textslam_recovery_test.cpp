@@ -113,6 +113,7 @@ TEST_F(TextslamRecovery, ComesBackIntoItsMap) {
 // Far down the corridor nothing of the first map can be seen, and a second one begins; on its way back the camera meets
 // the first.
 TEST_F(TextslamRecovery, MapsOfOneCorridorBecomeOne) {
+  TEXTPLANE_LONG_TEST();
   append(3, 0, 44);
   append_dark(32);
   append(3, 160, 20);

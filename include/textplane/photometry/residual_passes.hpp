@@ -90,7 +90,7 @@ Collected collect(const ResidualRequest<T>& request, const std::uint8_t* on_set,
   const Vector3<double>& theta = request.theta;
   double H[9];
   for (int k = 0; k < 9; ++k) H[k] = T_t_h.R(k / 3, k % 3) + T_t_h.t[k / 3] * theta[k % 3];
-  const double t[3] = {T_t_h.t[0], T_t_h.t[1], T_t_h.t[2]}, p[3] = {theta[0], theta[1], theta[2]};
+  [[maybe_unused]] const double t[3] = {T_t_h.t[0], T_t_h.t[1], T_t_h.t[2]}, p[3] = {theta[0], theta[1], theta[2]};
   const Pinhole<double> h = request.input.host_camera, c = request.input.target_camera;
   const PatchView patch = request.input.patch;
   const ImageView<const T> image = request.input.target;

@@ -278,7 +278,7 @@ TEST(Vec, TapsAreExactDifferencesOfBytes) {
       float out[4 * kMost];
       for (std::uint32_t& word : words) {
         word = static_cast<std::uint32_t>(random());
-        if (round % 3 == 0) word = (random() & 0x01010101u) * 255u;  // each byte 0 or 255
+        if (round % 3 == 0) word = (word & 0x01010101u) * 255u;  // each byte 0 or 255
       }
       taps(words, out);
       for (int i = 0; i < lanes; ++i) {
