@@ -66,7 +66,7 @@ TEST(LensMap, SeesAsTheModel) {
       EXPECT_LT((px - want).norm(), 1e-9);
       EXPECT_LT((J - want_J).norm(), 1e-9 * (1 + want_J.norm()));
       EXPECT_EQ(camera.project(p), px);
-      Vec3 ray;
+      Vec3 ray = Vec3::Zero();
       ASSERT_EQ(camera.unproject(px, &ray), tp::Status::ok) << r;
       EXPECT_LT((ray - Vec3(p / z)).norm(), 1e-9 * (1 + r * r)) << r;
       const int level = random.integer(0, 3);
