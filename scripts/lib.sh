@@ -8,6 +8,9 @@ jobs=$(nproc 2>/dev/null || getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 files_in_a_unit=8
 if [ "$jobs" -le 2 ]; then files_in_a_unit=24; fi
 
+# Where packages of other releases of Debian come from.
+mirror=${TEXTPLANE_DEBIAN_MIRROR:-http://deb.debian.org/debian}
+
 # A compiler cache is used where there is one, never asked for.
 if [ -z "${CMAKE_CXX_COMPILER_LAUNCHER:-}" ] && command -v ccache >/dev/null 2>&1; then
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache
@@ -127,7 +130,7 @@ get_yaml_cpp() {
   mkdir -p "$yaml_cpp"
   apt_helper=/usr/lib/apt/apt-helper
   [ -x "$apt_helper" ] || die "no apt here: unpack yaml-cpp's source to $yaml_cpp"
-  "$apt_helper" download-file "http://deb.debian.org/debian/pool/main/y/yaml-cpp/yaml-cpp_0.7.0+dfsg.orig.tar.xz" \
+  "$apt_helper" download-file "$mirror/pool/main/y/yaml-cpp/yaml-cpp_0.7.0+dfsg.orig.tar.xz" \
     "$yaml_cpp/source.tar.xz" SHA256:dc63708605404e0b963e0ca3a9619d1c8270eda2839603e6fa0384e5e51e5312 ||
     die "could not fetch yaml-cpp's source"
   tar -xJf "$yaml_cpp/source.tar.xz" -C "$yaml_cpp" --strip-components 1

@@ -1,4 +1,5 @@
-"""What the experiments with several sessions share: rendered walks through a scene, and the programs they call."""
+"""What the experiments with several sessions, or halves of one, share: rendered walks through a scene, and the programs
+they call."""
 import argparse
 import json
 import subprocess
@@ -8,13 +9,20 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 
 
-def parser_for(name, description, kinds):
+def parser_of(name, description):
     """A parser of the options that all of them have."""
     parser = argparse.ArgumentParser(prog=f"examples/experiments/{name}", description=description)
     add = parser.add_argument
     add("--programs", type=Path, default=ROOT / "build/release/bin", metavar="DIR",
         help="folder of textslam and textslam-eval (build/release/bin)")
     add("--output", type=Path, default=ROOT / "build" / name, metavar="DIR", help=f"results (build/{name})")
+    return parser
+
+
+def parser_for(name, description, kinds):
+    """The same with those of rendered walks."""
+    parser = parser_of(name, description)
+    add = parser.add_argument
     add("--kinds", nargs="+", default=kinds, metavar="KIND", help=f"rendered kinds ({' '.join(kinds)})")
     add("--seeds", nargs="+", type=int, default=[1], metavar="N", help="their seeds (1)")
     add("--map-frames", type=int, metavar="N", help="frames of a first session (each kind's own)")

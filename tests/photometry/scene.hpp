@@ -51,7 +51,9 @@ struct Scene {
       camera->fy *= zoom;
     }
     Random random(seed * 7919 + 1);
-    const tp::Vector3<double> normal(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), -1);
+    // One draw a statement, as in Random::twist().
+    const double down = random.uniform(-0.4, 0.4), across = random.uniform(-0.4, 0.4);
+    const tp::Vector3<double> normal(across, down, -1);
     theta = -normal.normalized() / random.uniform(1.0, 3.0);
     T_w_h = tp::se3_exp<double>(random.twist(2.0, 1.0));
     T_t_h = tp::se3_exp<double>(random.twist(0.15, 0.12));
@@ -66,7 +68,8 @@ struct Scene {
       // The other view's intensity under another exposure, with noise and some gross outliers.
       double value = 0;
       tp::sample_bilinear(view(), at[0], at[1], &value);
-      value = 0.8 * value + 15 + random.uniform(-6, 6) + (random.integer(0, 9) == 0 ? random.uniform(-90, 90) : 0.0);
+      const double noise = random.uniform(-6, 6), outlier = random.integer(0, 9) == 0 ? random.uniform(-90, 90) : 0.0;
+      value = 0.8 * value + 15 + noise + outlier;
       intensity.push_back(static_cast<float>(value));
     }
     workspace.reserve(pixels);

@@ -1,4 +1,5 @@
-"""The experiments with several sessions or halves of one, with stand-ins for textslam and textslam-eval whose numbers a reader can check.
+"""The experiments with several sessions or halves of one, with stand-ins for textslam and textslam-eval whose numbers a
+reader can check.
 
 usage: sessions_experiments_test.py REPOSITORY
 """

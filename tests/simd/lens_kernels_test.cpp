@@ -14,7 +14,7 @@ namespace tp = textplane;
 using namespace textplane_test;
 using Scene8 = Scene<std::uint8_t>;
 
-// Behind a lens positions, and all that follows from them, are good to twice what they are without (simd/lens.hpp).
+// Positions behind a lens are good to twice what they are without (simd/lens.hpp).
 constexpr double kLensFactor = 2;
 
 // A lens, and the zoom that lets the patch see as much of it as its fit needs terms for.
@@ -105,7 +105,7 @@ TEST(LensKernels, MasksAndBorders) {
     tp::PhotometricOptions o = any_options(trial % 2 == 0);
     o.min_visible = random.integer(0, 20);
     compare_all(in, scene.theta, scene.T_t_h, o, kLensFactor);
-    compare_cost(in, scene.theta, scene.T_t_h, any_options(), mask.data(), kLensFactor);
+    compare_cost(in, scene.theta, scene.T_t_h, any_options(), mask.data());
   }
 }
 

@@ -139,11 +139,11 @@ TEST(TemplateKernels, NormalEquations) {
         const auto reference = tp::reference::linearise<tp::Parameters::pose_plane>(
             tp::ResidualRequest{in, scene.theta, scene.T_t_h, o}.by(policy), scene.workspace);
         const double sigma = reference.s / std::sqrt(reference.visible);
-        ASSERT_GT(sigma, 25);
+        ASSERT_GT(sigma, 30);
         // Of the fixed point: 0.08 / sigma (template_patch.hpp), sigma of the host being larger here.
         const auto fast = tp::linearise<tp::Parameters::pose_plane>(
             tp::ResidualRequest{in, scene.theta, scene.T_t_h, o}.by(policy, &prepared), scene.workspace);
-        textplane_test::expect_close<9>(fast, reference, 0.08 / sigma);
+        textplane_test::expect_close<9>(fast, reference, 0.08 / 30);
         // On average far below: 1.5e-4 is a tenth of a grey level's share.
         EXPECT_LT((fast.H - reference.H).norm(), 2e-3 * reference.H.norm());
       }

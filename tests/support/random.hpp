@@ -34,7 +34,9 @@ class Random {
   }
   textplane::Vector6<double> twist(double translation, double rotation) {
     textplane::Vector6<double> xi;
-    xi << vector<3>(translation), vector<3>(rotation);
+    xi.head<3>() =
+        vector<3>(translation);  // one draw a statement: compilers order the parts of an expression differently
+    xi.tail<3>() = vector<3>(rotation);
     return xi;
   }
   textplane::SE3d pose(double translation, double rotation) {
