@@ -76,6 +76,7 @@ page() {
 fuzz_seconds=${TEXTPLANE_FUZZ_SECONDS:-900}
 
 all_stages() {
+  stage tsan '-DTEXTPLANE_BUILD_EXAMPLES=OFF' '-L ^threads$' 'test_threads adjuster_alone_test'
   set -- "$root/build/dev/bin/test_simd" "$root/build/dev/bin/test_threads"
   if needs memcheck valgrind "$@"; then checked memcheck memcheck "$@"; fi
   if needs i386 /usr/lib/gcc/x86_64-linux-gnu/12/32 /usr/src/googletest; then

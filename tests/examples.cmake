@@ -12,6 +12,7 @@ if(TEXTPLANE_TEST_TIER STREQUAL "threads")
   target_link_libraries(adjuster_alone_test PRIVATE textplane_test_support GTest::gtest_main)
   target_compile_options(adjuster_alone_test PRIVATE ${TEXTPLANE_TEST_FLAGS})
   target_precompile_headers(adjuster_alone_test REUSE_FROM textplane_test_support)
+  set_target_properties(adjuster_alone_test PROPERTIES UNITY_BUILD ${TEXTPLANE_UNITY_BUILD})
   textplane_discover_tests(adjuster_alone_test threads TIERS threads)
 endif()
 
@@ -114,9 +115,9 @@ textplane_test_example(06_relight "worst: corners off by" BELOW=0.3)
 textplane_test_example(07_ceres_bundle_adjustment "after: positions off by" BELOW=6)
 textplane_test_example(08_many_candidates "refined: corners off by" BELOW=0.1)
 
-# The sequence of the examples that read one: rendering it takes longer than all of them.
+# The sequence of the examples that read one: rendering it takes longer than all of them. The trackers need the most frames.
 set(rendered ${CMAKE_CURRENT_BINARY_DIR}/rendered)
-add_test(NAME examples.sequence COMMAND textslam --render rapid --frames 90 --render-only --output ${rendered})
+add_test(NAME examples.sequence COMMAND textslam --render rapid --frames $<IF:$<TARGET_EXISTS:foreign_tracker>,90,50> --render-only --output ${rendered})
 set_tests_properties(examples.sequence PROPERTIES FIXTURES_SETUP rendered COST 20)
 textplane_label(examples.sequence programs)
 add_test(NAME examples.own_detector COMMAND ${CMAKE_COMMAND} "-DPROGRAM=$<TARGET_FILE:own_detector>;${rendered}/sequence;${rendered}/own_detector"

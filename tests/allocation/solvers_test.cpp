@@ -15,14 +15,14 @@ using textplane_test::NoAllocation;
 
 TEST(NoAllocation, RefinePoseAndRefinePlane) {
   using namespace textplane_test::planar;
-  const Scene scene = three_signs();
+  const textplane_test::planar::Scene scene = three_signs();
   const SE3d truth = target_pose();
   const FloatPyramid image = scene.render(truth);
   std::vector<TextPatch> patches;
   std::vector<textplane::PoseTextTerm> texts;
   for (const Sign& sign : scene.signs) patches.push_back(scene.patch(sign));
   for (std::size_t i = 0; i < 3; ++i) texts.push_back({&patches[i], scene.signs[i].theta, scene.signs[i].T_w_h, 1});
-  Random random(1);
+  textplane_test::planar::Random random(1);
   std::vector<textplane::PosePointTerm> points(50);
   for (auto& p : points) {
     p.px = Vec2(random.uniform(0, 319), random.uniform(0, 239));
@@ -75,7 +75,7 @@ TEST(NoAllocation, RefinePoseOfManySmallTexts) {
 
 TEST(NoAllocation, SolveWindowAgain) {
   namespace tp = textplane;
-  textplane_test::Scene scene;
+  textplane_test::WindowScene scene;
   textplane_test::Noise noise(3);
   scene.add_frames(6);
   scene.add_points(60, noise);

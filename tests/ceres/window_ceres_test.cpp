@@ -27,7 +27,7 @@ double solve_with_ceres(tp::Window& w, const tp::WindowOptions& o, TextRows rows
 
 // A window of usual size with 1 px of noise and some wild observations, so that both robust costs are at work.
 struct WindowAgainstCeres : testing::Test {
-  Scene scene;
+  WindowScene scene;
   tp::Window start;
   tp::WindowOptions options;
 

@@ -77,7 +77,7 @@ TEST(Charges, ALostTargetOfAPlane) {
 }
 
 TEST(Charges, ALostTextOfAWindow) {
-  textplane_test::Scene scene;
+  textplane_test::WindowScene scene;
   scene.add_frames(2);
   scene.texts.push_back({0, {0.05, -0.03, 0.26}, 90, 80, 170, 130});
   tp::Window w = scene.finish();
@@ -127,7 +127,7 @@ TEST(Chi2, OfAPoseIsInUnitsOfBothDeviations) {
 }
 
 struct Points {
-  textplane_test::Scene scene;
+  textplane_test::WindowScene scene;
   tp::Window w;
   Points() {
     textplane_test::Noise noise(5);

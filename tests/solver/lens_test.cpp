@@ -161,7 +161,7 @@ TEST(Lens, PlanesAndSearches) {
 
 TEST(Lens, WindowsOfPointsAndTexts) {
   for (const LensMap* lens : kLenses) {
-    textplane_test::Scene scene;
+    textplane_test::WindowScene scene;
     scene.lens = lens;
     textplane_test::Noise noise(4);
     scene.add_frames(4);

@@ -33,7 +33,7 @@ struct Problem {
 
   explicit Problem(const Camera& model, int frames = 8, double spacing = 0.12) : truth(model.parameters()) {
     Noise noise(7);
-    Scene scene;
+    WindowScene scene;
     scene.add_frames(frames, spacing);
     scene.add_points(80, noise);
     w = scene.finish();
@@ -249,7 +249,7 @@ TEST(WindowCalibration, RefusesWhatIsNoCameraOrPrior) {
 
 TEST(WindowCalibration, TextsAreLeftOut) {
   Noise noise(11);
-  Scene scene;
+  WindowScene scene;
   scene.add_frames(5);
   scene.add_points(40, noise);
   scene.texts.push_back({0, {0, 0, -0.25}, 100, 80, 180, 120});

@@ -168,7 +168,7 @@ TEST_F(WindowInput, AFrameThatSeesALineIsTold) {
 }
 
 TEST(WindowTextInput, BadTextsAreLeftOut) {
-  Scene scene;
+  WindowScene scene;
   Noise noise(41);
   scene.add_frames(5);
   scene.add_points(40, noise);
@@ -220,7 +220,7 @@ TEST(WindowTextInput, BadTextsAreLeftOut) {
 
 // A text that one frame alone looks at from the host's own place says nothing about its plane.
 TEST(WindowTextInput, ATextWithoutParallaxIsTold) {
-  Scene scene;
+  WindowScene scene;
   scene.add_frames(1);
   scene.T_w_c.push_back(scene.T_w_c[0] *
                         tp::se3_exp<double>((tp::Vector6<double>() << 0, 0, 0, 0.01, 0.02, 0.03).finished()));

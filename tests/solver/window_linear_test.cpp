@@ -16,7 +16,7 @@ using Dense = Eigen::MatrixXd;
 // A general state: everything perturbed, some frames, a point and a text fixed, mixed weights and sigmas, one point
 // seen twice in a frame. Parameters are ordered as free cameras (6 each), then all landmarks (3 each).
 struct General {
-  Scene scene;
+  WindowScene scene;
   tp::Window w;
   tp::WindowOptions o;
   tp::detail::WindowState x;

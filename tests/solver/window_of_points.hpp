@@ -10,7 +10,7 @@
 namespace textplane_test {
 
 struct WindowOfPoints : ::testing::Test {
-  Scene scene;
+  WindowScene scene;
   Noise noise{31};
   tp::Window w;
   tp::WindowOptions o;

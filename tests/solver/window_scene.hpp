@@ -47,7 +47,7 @@ inline double texture(double x, double y, int text) {
 }
 
 /// The truth and what is rendered from it. The Window points into it.
-struct Scene {
+struct WindowScene {
   tp::Pinhole<double> camera{260, 262, 161.3, 118.6};
   const tp::LensMap* lens = nullptr;  // of all frames; texts are given in px of the undistorted image
   tp::CameraView view() const { return {camera, lens}; }
@@ -164,7 +164,7 @@ struct Scene {
 };
 
 /// Three signs at different depths and slants, hosted by different frames.
-inline void add_signs(Scene& scene) {
+inline void add_signs(WindowScene& scene) {
   scene.texts.push_back({0, {0.05, -0.03, 0.26}, 30, 30, 110, 80});
   scene.texts.push_back({1, {-0.06, 0.04, 0.30}, 190, 40, 270, 95});
   scene.texts.push_back({0, {0.02, 0.07, 0.24}, 90, 140, 190, 200});

@@ -19,7 +19,7 @@ tp::WindowOptions exact() {
 }
 
 TEST(Window, PointsReturnToTheTruthExactly) {
-  Scene scene;
+  WindowScene scene;
   Noise noise(1);
   scene.add_frames(6);
   scene.add_points(80, noise);
@@ -42,7 +42,7 @@ TEST(Window, PointsReturnToTheTruthExactly) {
 // Images are rounded to 8 bits and read by bilinear interpolation: E of 1e-4 a patch at the truth, so poses come back
 // to a few hundredths of a px (1 px is 0.004 rad here), planes to what their own covariance says.
 TEST(Window, TextsAloneReturnToTheTruth) {
-  Scene scene;
+  WindowScene scene;
   Noise noise(2);
   scene.add_frames(6);
   add_signs(scene);
@@ -72,7 +72,7 @@ TEST(Window, TextsAloneReturnToTheTruth) {
 }
 
 TEST(Window, PointsAndTextsTogether) {
-  Scene scene;
+  WindowScene scene;
   Noise noise(3);
   scene.add_frames(6);
   scene.add_points(60, noise);
@@ -91,7 +91,7 @@ TEST(Window, PointsAndTextsTogether) {
 }
 
 TEST(Window, CoarseToFineReachesFurtherThanOneLevel) {
-  Scene scene;
+  WindowScene scene;
   Noise noise(4);
   scene.add_frames(5);
   add_signs(scene);
@@ -111,7 +111,7 @@ TEST(Window, CoarseToFineReachesFurtherThanOneLevel) {
 }
 
 TEST(Window, FixedTextsAndPointsStayAndStillPull) {
-  Scene scene;
+  WindowScene scene;
   Noise noise(5);
   scene.add_frames(4);
   scene.add_points(30, noise);
@@ -133,7 +133,7 @@ TEST(Window, FixedTextsAndPointsStayAndStillPull) {
 }
 
 TEST(Window, HuberKeepsOutliersFromBendingTheMap) {
-  Scene scene;
+  WindowScene scene;
   Noise noise(6);
   scene.add_frames(6);
   scene.add_points(100, noise);
@@ -161,7 +161,7 @@ TEST(Window, HuberKeepsOutliersFromBendingTheMap) {
 // One more iteration at a time: the cost after n iterations never rises with n, and every call starts where the last
 // one ended.
 TEST(Window, CostIsMonotone) {
-  Scene scene;
+  WindowScene scene;
   Noise noise(7);
   scene.add_frames(6);
   scene.add_points(60, noise);
@@ -192,7 +192,7 @@ TEST(Window, CostIsMonotone) {
 }
 
 TEST(Window, AWorkspaceCarriesNothingOver) {
-  Scene scene, other;
+  WindowScene scene, other;
   Noise noise(8);
   scene.add_frames(5);
   scene.add_points(40, noise);

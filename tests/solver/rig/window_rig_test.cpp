@@ -38,7 +38,7 @@ void tie(Window& w, int bases, const SE3d& T_b_c, const CameraView* camera) {
 
 // A stereo pair at n times: frames n to 2 n - 1 are the right images of 0 to n - 1.
 struct Stereo {
-  Scene scene;
+  WindowScene scene;
   SE3d T_b_c = pose(0.25, 0.02, -0.01, 0.02, -0.06, 0.03);
   Window truth;
 
@@ -107,7 +107,7 @@ TEST(WindowRig, TextsHostedAndSeenByEitherCamera) {
 // A text that the right camera hosts: its term is the same from both sides of the rig.
 TEST(WindowRig, AHostMayBeTheOtherCamera) {
   Stereo stereo(3, 30, false);
-  Scene& scene = stereo.scene;
+  WindowScene& scene = stereo.scene;
   scene.truth = Window();
   scene.texts.push_back({4, {0.05, -0.03, 0.26}, 30, 30, 110, 80});
   scene.texts.push_back({3, {-0.06, 0.04, 0.30}, 190, 40, 270, 95});
@@ -184,7 +184,7 @@ TEST(WindowRig, CamerasFollowTheirBaseExactly) {
 
 // One camera that sits elsewhere on each base: the window of the plain frames, in other coordinates.
 TEST(WindowRig, ARigOfOneCameraIsThatCamera) {
-  Scene scene;
+  WindowScene scene;
   scene.add_frames(4);
   Noise noise(4);
   scene.add_points(40, noise);
