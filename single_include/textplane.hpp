@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 184 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 22700cfabb99b72c
+// Hash of these files: fd5abfdf7db5353c
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 22700cfabb99b72c"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 fd5abfdf7db5353c"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -16012,7 +16012,8 @@ TEXTPLANE_END_NAMESPACE
 //
 // Between warp and taps the kernels then add the lens step: positions relative to that of m0, so that their error grows
 // with the patch and not with the image, and the 2 x 2 derivative. Its transpose takes the image's gradient to the
-// pinhole image, where all that follows is as without a lens. Error of positions: 2e-5 px for patches of 128 px.
+// pinhole image, where all that follows is as without a lens. Error of positions: 2e-5 px for patches of 128 px, twice
+// that without a lens; what residual.hpp and batch.hpp state of sums doubles with it.
 #ifndef TEXTPLANE_SIMD_LENS_HPP
 #define TEXTPLANE_SIMD_LENS_HPP
 

@@ -76,6 +76,11 @@ function show_provenance(data, run) {
   const c = data.camera;
   const fov = c.approximate_fov_deg;
   const guess = fov === undefined ? "" : `: approximate, a pinhole of ${fov}\u00b0 (--fov), not calibrated`;
+  const { readout_s, readout_estimated } = data.summary;
+  if (readout_s) {
+    const how = readout_estimated ? "estimated from the images" : "as given";
+    facts.push(["Rolling shutter", `from the first row to the last ${digits(1000 * readout_s, 1)} ms, ${how}`]);
+  }
   facts.push(["Camera", `${c.width} x ${c.height} px, fx ${c.fx}, fy ${c.fy}, cx ${c.cx}, cy ${c.cy}${guess}`]);
   const { factor, name, why } = unit_of(data);
   facts.push(["Unit of the map", name === "m" ? `${factor} m, ${why}` : `not known: ${why}`]);

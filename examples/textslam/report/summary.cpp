@@ -75,8 +75,9 @@ void add_counts(Fields& fields, const RunSummary& s) {
                s.metric->texts == 1 ? "text" : "texts");
   }
   if (s.readout != 0) {
-    fields.add("readout_s", nullptr, s.readout);
-    fields.row("readout of the rows", "%.1f ms", 1000 * s.readout);
+    fields.add("readout_s", "readout_s", s.readout);
+    fields.add("readout_estimated", "readout_estimated", s.readout_estimated);
+    fields.row("readout of the rows", "%.1f ms%s", 1000 * s.readout, s.readout_estimated ? ", estimated" : "");
   }
   if (s.approximate_fov > 0) fields.add("approximate_camera", nullptr, Json{{"fov_deg", s.approximate_fov}});
   if (s.calibration) add_calibration(fields, *s.calibration, s.true_camera);
@@ -208,6 +209,7 @@ RunSummary summarise(const System& system, const Sequence& sequence, std::size_t
   s.notes = sequence.notes;
   s.approximate_fov = sequence.approximate_fov;
   s.readout = system.map().shutter.readout;
+  s.readout_estimated = system.estimates_readout();
   s.true_camera = sequence.true_camera;
   s.has_detections = sequence.has_detections;
   s.has_truth = !sequence.groundtruth.empty();

@@ -26,6 +26,7 @@ struct RunSummary {
   std::vector<std::size_t> map_frames;         ///< Of each separate map, that of the outputs first.
   double approximate_fov = 0;                  ///< Degrees, of a guessed camera; 0: it is calibrated.
   double readout = 0;                          ///< s, of a rolling shutter, as known or estimated; 0: all rows at once.
+  bool readout_estimated = false;              ///< From the turns of the camera and the map.
   std::optional<SelfCalibration> calibration;  ///< Where the camera was to be estimated.
   std::optional<CameraModel> true_camera;      ///< Where the sequence has it.
   bool has_detections = false;                 ///< The sequence has.

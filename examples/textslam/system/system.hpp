@@ -111,6 +111,7 @@ class System {
   const std::deque<FrameRecord>& records() const { return records_; }
   std::size_t live_frames() const;
   const std::vector<LoopRecord>& loops() const { return loops_; }
+  bool estimates_readout() const noexcept { return parameters_.estimate_readout; }
   /// Map to the live world, in which live poses are given. Adjustments move all of a monocular map. This similarity
   /// fits the poses of all frames, as the map has them now, to their live poses, so that the live world stays in place.
   const Similarity& live_world() const { return live_world_; }

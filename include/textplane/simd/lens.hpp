@@ -6,7 +6,8 @@
 //
 // Between warp and taps the kernels then add the lens step: positions relative to that of m0, so that their error grows
 // with the patch and not with the image, and the 2 x 2 derivative. Its transpose takes the image's gradient to the
-// pinhole image, where all that follows is as without a lens. Error of positions: 2e-5 px for patches of 128 px.
+// pinhole image, where all that follows is as without a lens. Error of positions: 2e-5 px for patches of 128 px, twice
+// that without a lens; what residual.hpp and batch.hpp state of sums doubles with it.
 #ifndef TEXTPLANE_SIMD_LENS_HPP
 #define TEXTPLANE_SIMD_LENS_HPP
 

@@ -11,6 +11,7 @@
 #include "textslam/report/report_data.hpp"
 #include "textslam/report/report_frames.hpp"
 #include "textslam/report/report_template.hpp"
+#include "textslam/report/summary.hpp"
 
 namespace textslam {
 namespace report_test {
@@ -99,6 +100,23 @@ TEST(Report, EveryParameterIsThere) {
   EXPECT_EQ(value_of("max_tracks"), parameters.max_tracks);
   // A field takes 8 bytes at most, so a list that is much too short does not cover the struct.
   EXPECT_GE(8 * list.size(), sizeof(Parameters));
+}
+
+// File, page and table say of a readout whether it was given or estimated; of rows read at once none of them does.
+TEST(Report, SaysWhereAReadoutCameFrom) {
+  RunSummary summary;
+  EXPECT_FALSE(describe(summary).page.contains("readout_s"));
+  for (const bool estimated : {false, true}) {
+    summary.readout = 0.0298;
+    summary.readout_estimated = estimated;
+    const Fields fields = describe(summary);
+    for (const Json& said : {fields.file, fields.page}) {
+      EXPECT_EQ(said.at("readout_s"), 0.0298);
+      EXPECT_EQ(said.at("readout_estimated"), estimated);
+    }
+    EXPECT_EQ(fields.table.find("29.8 ms, estimated") != std::string::npos, estimated) << fields.table;
+    EXPECT_NE(fields.table.find("29.8 ms"), std::string::npos) << fields.table;
+  }
 }
 
 TEST(Report, TemplateIsOnePage) {

@@ -43,6 +43,7 @@ TEST(RollingRoom, PosesAndPlanesKnowTheRows) {
     // So few and small images tell the readout to 1.5 ms (one standard deviation, by the curvature of the cost).
     EXPECT_NEAR(summary.readout, 0.03, system == &known ? 0 : 0.0045);
     EXPECT_EQ(summary.readout, system->map().shutter.readout);
+    EXPECT_EQ(summary.readout_estimated, system == &estimated);
   }
   // What is asked above is no matter of course.
   const RunSummary without = run_on(room, ignored);
