@@ -25,7 +25,8 @@ TEST(NoAllocation, RefinePoseAndRefinePlane) {
   textplane_test::planar::Random random(1);
   std::vector<textplane::PosePointTerm> points(50);
   for (auto& p : points) {
-    p.px = Vec2(random.uniform(0, 319), random.uniform(0, 239));
+    p.px.y() = random.uniform(0, 239);
+    p.px.x() = random.uniform(0, 319);
     p.p_w = truth.inverse() * Vec3(3 * scene.camera.unproject(p.px));
   }
   std::vector<float> zncc(3), chi2(50);
