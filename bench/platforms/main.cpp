@@ -53,23 +53,23 @@ bool make_scene(Scene* scene) {
   return true;
 }
 
-// Error of the pose; infinite where the alignment fails. `pyramid` of the target, or null: it is made.
-double align(const Scene& s, const tp::Pyramid* pyramid) {
-  const auto fit = pyramid ? tp::align_pose(s.patch, s.theta, tp::SE3d(), *pyramid, s.camera)
-                           : tp::align_pose(s.patch, s.theta, tp::SE3d(), tp::Pyramid(s.target.view()), s.camera);
+// Error of the pose; infinite where the alignment fails.
+double align(const Scene& s, const tp::Pyramid& target) {
+  const auto fit = tp::align_pose(s.patch, s.theta, tp::SE3d(), target, s.camera);
   return fit.status == tp::Status::converged ? tp::se3_log(fit.T_t_h * s.truth.inverse()).norm() : HUGE_VAL;
 }
 
-// Microseconds of an alignment, of each run; empty where one misses the pose.
-std::vector<double> time_alignment(const Scene& scene, const tp::Pyramid* pyramid, bool once) {
+// Microseconds of an alignment, of each run; empty where one misses the pose. error(): aligns, and gives the error.
+template <class Error>
+std::vector<double> time_alignment(const Error& error, bool once) {
   using Clock = std::chrono::steady_clock;
   std::vector<double> us;
   for (int i = 0; i < (once ? 0 : kWarmUp); ++i)
-    if (!(align(scene, pyramid) < 5e-3)) return {};
+    if (!(error() < 5e-3)) return {};
   for (int run = 0; run < (once ? 1 : kRuns); ++run) {
     const Clock::time_point begin = Clock::now();
     for (int i = 0; i < (once ? 1 : kAlignments); ++i)
-      if (!(align(scene, pyramid) < 5e-3)) return {};
+      if (!(error() < 5e-3)) return {};
     us.push_back(std::chrono::duration<double, std::micro>(Clock::now() - begin).count() / kAlignments);
   }
   return us;
@@ -84,8 +84,8 @@ int main(int count, char**) {
   for (int i = 0; i < tp::simd::kTargetCount; ++i) {
     const auto target = static_cast<tp::simd::Target>(i);
     if (tp::simd::set_target(target) != tp::Status::ok) continue;
-    const std::vector<double> us = time_alignment(scene, nullptr, count > 1);
-    const std::vector<double> prepared = time_alignment(scene, &pyramid, count > 1);
+    const auto us = time_alignment([&] { return align(scene, tp::Pyramid(scene.target.view())); }, count > 1);
+    const auto prepared = time_alignment([&] { return align(scene, pyramid); }, count > 1);
     if (us.empty() || prepared.empty()) {
       std::fprintf(stderr, "%s does not find the pose\n", tp::simd::to_string(target));
       return 1;
