@@ -110,6 +110,8 @@ TEST(LensMap, ABadCameraSeesNothing) {
     EXPECT_FALSE(camera.valid());
     Vec3 ray;
     EXPECT_EQ(camera.unproject({100, 100}, &ray), tp::Status::degenerate);
+    Vec2 m;
+    EXPECT_EQ(map.undistort(Vec2(0, 0), &m), tp::Status::degenerate) << "not even its middle";
   }
 }
 

@@ -104,6 +104,36 @@ TEST(PointPatch, RowSamplingEqualsPixelSamplingUpToTheBorders) {
   }
 }
 
+// Done is done: begun again where it ended, the alignment stays within the two cells of 1/64 px among which its last
+// steps may cycle, and a third for the start's rounding to the grid.
+TEST(AlignTemplate, EndsWhereItStays) {
+  Matrix3d to_target;
+  to_target << 0.93, -0.22, 40.37, 0.18, 1.04, -25.61, 0, 0, 1;
+  const Eigen::Matrix2f A = to_target.inverse().topLeftCorner<2, 2>().cast<float>();
+  const TexturedPlane plane(11);
+  const Image<std::uint8_t> host = plane.render(Matrix3d::Identity(), 480, 360, {}, 1);
+  const Image<std::uint8_t> target = plane.render(to_target.inverse(), 480, 360, {0.8, 15, 0, 0, 12}, 2);
+  std::vector<Corner> corners, spread;
+  detect_fast(host.view(), 20, true, corners);
+  select_spread(corners, 480, 360, 24, 300, {}, spread);
+  Random random(4);
+  int converged = 0;
+  for (const Corner& c : spread)
+    for (const int half : {3, 5, 7}) {
+      PointPatch t;
+      if (extract_point_patch(host.view(), {c.x, c.y}, A, half, &t) != Status::ok) continue;
+      const double right = random.uniform(-2, 2), down = random.uniform(-2, 2);
+      const Vector2d start = TexturedPlane::apply(to_target, {c.x, c.y}) + Vector2d(right, down);
+      const KltResult once = align_point_patch(t, target.view(), start.cast<float>());
+      if (once.status != Status::converged) continue;
+      const KltResult again = align_point_patch(t, target.view(), once.px);
+      ++converged;
+      EXPECT_EQ(again.status, Status::converged);
+      EXPECT_LE((again.px - once.px).norm(), 3.0F / 64) << c.x << ' ' << c.y;
+    }
+  EXPECT_GT(converged, 300);
+}
+
 // What is left is interpolation, not convergence: a smaller epsilon, symmetric (ESM) gradients and cubic sampling of
 // the template change nothing for the better. It grows in the few patches with little texture.
 TEST(AlignTemplate, ReobservesAWarpedPatchToAFewHundredthsOfAPixel) {

@@ -76,6 +76,23 @@ TEST(EstimateNoise, AnEvenImageHasNone) {
   EXPECT_LT(found.sigma, 0.07);  // a bin of the histogram
 }
 
+// On a checkerboard of 128 +- a(y) the high-pass is 4 (a(y - 1) + 2 a(y) + a(y + 1)) everywhere. One row that is a grey
+// level stronger adds 16 / 32 to its mean over a block. The estimates run past 128 grey levels, the histogram's end.
+TEST(EstimateNoise, WhatIsBeyondTheHistogramIsInItsLastBin) {
+  for (int stronger = 0; stronger <= 30; ++stronger) {
+    std::vector<std::uint8_t> pixels;
+    for (int y = 0; y < 34; ++y)
+      for (int x = 0; x < 34; ++x) {
+        const int a = y > 1 && y <= 1 + stronger ? 39 : 38;
+        pixels.push_back(static_cast<std::uint8_t>((x + y) % 2 ? 128 + a : 128 - a));
+      }
+    const tp::NoiseEstimate found = tp::estimate_noise(tp::ImageView8(pixels.data(), 34, 34));
+    ASSERT_EQ(found.blocks, 1);
+    const double sigma = std::sqrt(std::acos(-1.0) / 2) * (16 * 38 + 0.5 * stronger) / 6;
+    EXPECT_NEAR(found.sigma, std::min(sigma, 128.0), 1.0 / 16) << stronger;
+  }
+}
+
 TEST(EstimateNoise, RefusesOptionsAndImagesThatMakeNoSense) {
   const std::vector<std::uint8_t> pixels(kWidth * kHeight, 90);
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();

@@ -262,10 +262,10 @@ TEST_F(ResidualStatus, BadOptions) {
 }
 
 TEST_F(ResidualStatus, ResidualsWithoutRoomForThem) {
-  EXPECT_EQ(tp::reference::residuals<tp::Parameters::plane>(
-                tp::ResidualRequest{input, scene.theta, scene.T_t_h, options}, scene.workspace, nullptr, nullptr)
-                .status,
-            Status::invalid_argument);
+  const auto summary = tp::reference::residuals<tp::Parameters::plane>(
+      tp::ResidualRequest{input, scene.theta, scene.T_t_h, options}, scene.workspace, nullptr, nullptr);
+  EXPECT_EQ(summary.status, Status::invalid_argument);
+  EXPECT_EQ(summary.visible, 0);  // no pixel was looked at
 }
 
 TEST_F(ResidualStatus, TemplatedResidualRefusesWhatItsSetCannotSee) {

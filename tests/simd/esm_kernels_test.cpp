@@ -37,6 +37,28 @@ TEST(EsmKernels, EveryTargetAndCount) {
   }
 }
 
+// A host of little contrast on a bright ground. Float holds its variance where the mean of its pixels is taken off, of
+// these alone.
+TEST(EsmKernels, AFaintHostOnABrightGround) {
+  for (const tp::simd::Target target : textplane_test::testable_targets()) {
+    const textplane_test::TargetScope scope(target);
+    SCOPED_TRACE(tp::simd::to_string(target));
+    for (int n = 5; n <= 65; ++n) {
+      SCOPED_TRACE(n);
+      PolicyScene scene(static_cast<unsigned>(1 + n % 7), n);
+      for (std::size_t i = 0; i < scene.gx.size(); ++i) {
+        scene.intensity[i] = 250 + 0.02F * (scene.intensity[i] - 128);
+        scene.gx[i] *= 0.02F;
+        scene.gy[i] *= 0.02F;
+      }
+      for (auto& o : textplane_test::all_options(2)) {
+        o.min_contrast = 0;
+        compare<9>(scene, scene.policy_input(), tp::LinearisePolicy::esm, o);
+      }
+    }
+  }
+}
+
 TEST(EsmKernels, ManyPixelsAndAllParameters) {
   for (const tp::simd::Target target : textplane_test::testable_targets()) {
     const textplane_test::TargetScope scope(target);

@@ -175,6 +175,31 @@ TEST(LensKernels, HostGradients) {
   }
 }
 
+// Behind a lens, too, a patch of which all is visible, by far, has no pixel to be looked at alone.
+TEST(LensKernels, TemplatesInTheMiddleOfTheImageAreTaken) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    PolicyScene scene(3, 100, &c.lens, c.zoom);
+    for (std::size_t i = 0; i < 100; ++i) {
+      scene.x[i] = static_cast<float>(88 + i % 20);
+      scene.y[i] = static_cast<float>(77 + i / 20);
+    }
+    const tp::PhotometricInput in = scene.policy_input();
+    tp::TemplatePatch prepared;
+    ASSERT_EQ(prepared.prepare(in.patch), tp::Status::ok);
+    const tp::ResidualRequest request{in, {0, 0, 1}, tp::SE3d(), tp::PhotometricOptions()};
+    tp::simd::ResidualArgs args = tp::detail::kernel_args(request, scene.workspace, nullptr, nullptr);
+    tp::simd::LensFit fit;
+    ASSERT_TRUE(tp::detail::fit_request(request, &args, &fit));
+    std::vector<std::int16_t> values(128);
+    for (const tp::simd::Target target : testable_targets()) {
+      const TargetScope scope(target);
+      SCOPED_TRACE(tp::simd::to_string(target));
+      EXPECT_EQ(tp::simd::evaluate_template(prepared.model(), args, values.data()).status, tp::Status::ok);
+    }
+  }
+}
+
 TEST(LensKernels, Batches) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);

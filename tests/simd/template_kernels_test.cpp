@@ -91,6 +91,32 @@ TEST(TemplateKernels, ValuesAreWithinTheirBoundAndSumsExact) {
   }
 }
 
+// A position on the grid of 2^-15 px is not rounded. Two roundings to the unit of V are left, of half of it each,
+// however much neighbouring pixels differ.
+TEST(TemplateKernels, PositionsOnTheGridAreKept) {
+  Random random(6);
+  Sums s(1000);
+  for (int y = 0; y < 61; ++y)
+    for (int x = 0; x < 97; ++x) s.image(x, y) = static_cast<std::uint8_t>(255 * random.integer(0, 1));
+  constexpr int kGrid = 32768;
+  for (float& u : s.u) u = static_cast<float>(random.integer(-30 * kGrid, 30 * kGrid)) / kGrid;
+  for (float& v : s.v) v = static_cast<float>(random.integer(-20 * kGrid, 20 * kGrid)) / kGrid;
+  const float g[8] = {1, 0, 42, 0, 1, 27, 0, 0};
+  std::copy(g, g + 8, s.args.g);
+  for (const tp::simd::Target target : textplane_test::testable_targets()) {
+    const textplane_test::TargetScope scope(target);
+    SCOPED_TRACE(tp::simd::to_string(target));
+    tp::simd::TemplateSums sums;
+    tp::simd::template_sums(s.args, sums);
+    for (std::size_t i = 0; i < 1000; ++i) {
+      double exact = 0;
+      ASSERT_TRUE(tp::sample_bilinear(tp::ImageView8(s.image.data(), 97, 61), static_cast<double>(s.u[i]) + 46,
+                                      static_cast<double>(s.v[i]) + 29, &exact));
+      ASSERT_NEAR(s.values[i], 64 * (exact - 127.5), 1 + 1e-9) << i;
+    }
+  }
+}
+
 // Two vectors share a division, so positions differ by a rounding between targets; values by no more than two units of
 // 1/64.
 TEST(TemplateKernels, TargetsAgree) {
@@ -146,6 +172,9 @@ TEST(TemplateKernels, NormalEquations) {
         textplane_test::expect_close<9>(fast, reference, 0.08 / 30);
         // On average far below: 1.5e-4 is a tenth of a grey level's share.
         EXPECT_LT((fast.H - reference.H).norm(), 2e-3 * reference.H.norm());
+        // A value's own bound, as above.
+        EXPECT_NEAR(fast.mean, reference.mean, 0.025 + 2 * 255 * 2e-5);
+        EXPECT_NEAR(fast.s, reference.s, (0.025 + 2 * 255 * 2e-5) * std::sqrt(reference.visible));
       }
     }
   }

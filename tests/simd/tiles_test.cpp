@@ -6,6 +6,7 @@
 
 #include "simd/policy_support.hpp"
 #include "support/guarded.hpp"
+#include "textplane/core/cameras/radial_tangential.hpp"
 
 namespace tiles_test {
 namespace tp = textplane;
@@ -158,6 +159,48 @@ TEST(Tiles, SameBitsInEveryOrderAndPose) {
       }
     }
   EXPECT_GT(whole, all / 2);
+}
+
+// Tiles need the box that the target's pixels lie in. The patch's corners say it: as far as it is turned, and as far as
+// a tilt widens one of its edges. Its middle is on a pixel, so that the box is no larger by chance.
+TEST(Tiles, SameBitsWhereTurnsAndTiltsReach) {
+  const Targets targets(kWidth, kHeight, 240, true);
+  const Patch patch(101, 61, Order::rows, 9);
+  tp::PhotometricInput in = input_of(patch);
+  in.target_camera.cx = 105;
+  in.target_camera.cy = 86;
+  tp::PhotometricWorkspace workspace(in.patch.n);
+  tp::TemplatePatch prepared;
+  ASSERT_EQ(prepared.prepare(in.patch), tp::Status::ok);
+  const double turns[][3] = {{0, 0, 0.12}, {0, 0, -0.12},   {0.4, 0, 0},       {-0.4, 0, 0},      {0, 0.4, 0},
+                             {0, -0.4, 0}, {0.3, 0.2, 0.1}, {-0.3, 0.2, -0.1}, {0.3, -0.2, -0.1}, {-0.3, -0.2, 0.1}};
+  for (const tp::simd::Target target : testable_targets()) {
+    const TargetScope scope(target);
+    SCOPED_TRACE(tp::simd::to_string(target));
+    for (const auto& turn : turns) {
+      tp::SE3d T;
+      T.R = tp::so3_exp<double>({turn[0], turn[1], turn[2]});
+      T.t = tp::Vector3<double>(0, 0, 1) - T.R * tp::Vector3<double>(0, 0, 1);
+      EXPECT_TRUE(expect_same_of_all(in, T, targets, prepared, workspace)) << turn[0] << ' ' << turn[1];
+    }
+  }
+}
+
+TEST(Tiles, SameBitsBehindALens) {
+  const Targets targets(kWidth, kHeight, 240, true);
+  const tp::LensMap lens(tp::RadialTangential<double>{{}, -0.2, 0.03, 1e-3, -5e-4, 0});
+  const Patch patch(100, 40, Order::rows, 12);
+  tp::PhotometricInput in = input_of(patch);
+  in.lens = &lens;
+  tp::PhotometricWorkspace workspace(in.patch.n);
+  tp::TemplatePatch prepared;
+  ASSERT_EQ(prepared.prepare(in.patch), tp::Status::ok);
+  for (const tp::simd::Target target : testable_targets()) {
+    const TargetScope scope(target);
+    SCOPED_TRACE(tp::simd::to_string(target));
+    for (const double angle : {0.0, 0.02, -0.06, 3.1})
+      EXPECT_TRUE(expect_same_of_all(in, motion(angle, 1, 104.3, 87.8, in), targets, prepared, workspace)) << angle;
+  }
 }
 
 // From a patch whose tiles just fit to one that touches the border, and beyond; the image ends, or begins, at a

@@ -95,6 +95,19 @@ TEST(RefinePlane, ManyTargetsOfAnIndependentRendering) {
   }
 }
 
+// Where it begins shows in the last digits of where it ends.
+TEST(RefinePlane, BeginsOnTheLevelOfAQuarterOfTheSize) {
+  Input input(true);
+  ASSERT_EQ(input.patch.level_count(), 3);
+  Random random(6);
+  const Vec3 start = perturbed(input.sign.theta, random, 0.05);
+  PlaneOptions quarter, half;
+  quarter.coarsest_level = 2;
+  half.coarsest_level = 1;
+  EXPECT_EQ(input.solve(start).theta, input.solve(start, quarter).theta);
+  EXPECT_NE(input.solve(start).theta, input.solve(start, half).theta);
+}
+
 TEST(RefinePlane, SaysWhatComputedItsTargets) {
   Input input(false, 1);
   PlaneOptions options;

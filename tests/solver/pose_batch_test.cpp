@@ -179,25 +179,26 @@ TEST_F(PoseBatchTest, RunsWhereThePoseIsAnother) {
   EXPECT_NE(cost_at(turned), cost);
 }
 
-// Memory of many texts serves few, and that of few is not enough for many.
+// Memory of many texts serves few, and that of few, who need no batch, serves them alone.
 TEST_F(PoseBatchTest, OneWorkspaceServesFrameAfterFrame) {
   cut_all(20);
   tp::PoseWorkspace workspace;
   workspace.reserve(terms_.data(), count(), 0);
-  const auto solve = [&](int texts) {
+  const auto solve_in = [&](tp::PoseWorkspace& memory, int texts) {
     return tp::refine_pose(terms_.data(), texts, nullptr, 0, wall().frame.view(), wall().camera, wall().start, options_,
-                           workspace);
+                           memory);
   };
+  const auto solve = [&](int texts) { return solve_in(workspace, texts); };
   const tp::PoseFit all = solve(count()), few = solve(3), again = solve(count());
   EXPECT_EQ(few.texts, 3);
+  tp::PoseWorkspace of_three;
+  of_three.reserve(terms_.data(), 3, 0);
+  EXPECT_EQ(solve_in(of_three, 3).T_t_w.t, few.T_t_w.t);
   EXPECT_EQ(again.T_t_w.t, all.T_t_w.t) << "the same bits";
   EXPECT_EQ(again.T_t_w.R, all.T_t_w.R);
   tp::PoseWorkspace small;
   small.reserve(terms_.data(), 4, 0);
-  EXPECT_EQ(tp::refine_pose(terms_.data(), count(), nullptr, 0, wall().frame.view(), wall().camera, wall().start,
-                            options_, small)
-                .status,
-            tp::Status::invalid_argument);
+  EXPECT_EQ(solve_in(small, count()).status, tp::Status::invalid_argument);
 }
 
 }  // namespace pose_batch_test

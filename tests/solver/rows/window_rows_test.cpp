@@ -151,4 +151,50 @@ TEST(Rows, WindowFindsVelocitiesByTexts) {
   EXPECT_LT((found - omega).norm(), 0.1 * omega.norm());
 }
 
+// The velocity moves a low text as a whole, at the time of the row in which the target sees its centre.
+TEST(Rows, GradientByTheVelocityOfATextsTargetIsThatOfTheCost) {
+  const Views v(5);
+  const tp::RowMotion host_rows = v.host;
+  tp::RowMotion off = v.target;
+  off.velocity += tp::Vector6<double>::Constant(0.1);
+  const tp::CameraView host(kCamera.pinhole, nullptr, &host_rows);
+  const tp::Image<std::uint8_t> host_image = picture(v.T_h_w, v.host), target_image = picture(v.T_t_w, v.target);
+  const tp::Pyramid host_pyramid(host_image.view(), 1), target_pyramid(target_image.view(), 1);
+  for (const double y : {15.0, 30.0, 150.0, 165.0}) {
+    const tp::Quad<double> quad{{tp::Vector2<double>(90, y), tp::Vector2<double>(210, y),
+                                 tp::Vector2<double>(210, y + 8), tp::Vector2<double>(90, y + 8)}};
+    const tp::TextPatch patch = tp::make_patch(host_pyramid.view(), host, quad);
+    tp::Window w;
+    w.camera = kCamera;
+    w.frames.resize(2);
+    w.frames[0] = {v.T_h_w.inverse(), true, host_pyramid.view(), &host_rows};
+    w.frames[1] = {v.T_t_w.inverse(), false, target_pyramid.view(), &off};
+    w.frames[1].velocity_sigma.setConstant(1e3);
+    w.texts.push_back({0, v.theta, &patch, true});
+    w.text_observations.push_back({0, 1});
+    const tp::WindowOptions options;
+    tp::detail::WindowState x;
+    tp::detail::WindowStructure structure;
+    tp::detail::WindowTerms terms;
+    tp::detail::WindowSchur system;
+    x.read(w);
+    terms.prepare(w, options, x);
+    ASSERT_EQ(structure.build(w, options), tp::Status::ok);
+    terms.accumulate(w, options, x, structure, system);
+    const tp::Vector6<double> g = system.camera_gradient(structure.velocity_of_frame[1]);
+    tp::Vector6<double> expected;
+    for (int i = 0; i < 6; ++i) {
+      const double h = 1e-4;
+      tp::detail::WindowState up = x, down = x;
+      up.rows[1].velocity[i] += h;
+      down.rows[1].velocity[i] -= h;
+      expected[i] =
+          (terms.evaluate(w, options, x, structure, up).cost - terms.evaluate(w, options, x, structure, down).cost) /
+          (4 * h);
+    }
+    // What is left to the cost: rows up to four from the centre, which is some eighty from the shutter's middle.
+    EXPECT_LT((g - expected).norm(), 0.05 * expected.norm()) << y;
+  }
+}
+
 }  // namespace window_rows_test
