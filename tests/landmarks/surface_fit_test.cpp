@@ -33,4 +33,35 @@ TEST(SurfaceFit, PointsFartherOffCountLess) {
   EXPECT_LT(depth - 2, 0.5 * 0.25 * off) << "their mean is a fourth of the way";
 }
 
+// Points that are all known to so much in every direction, for PointLookup.
+struct EvenPoints {
+  std::vector<Vec3> all;
+  double sigma = 0;
+
+  int text_point_count() const { return static_cast<int>(all.size()); }
+  bool text_point(int i, Vec3* p_w) const {
+    *p_w = all[static_cast<std::size_t>(i)];
+    return true;
+  }
+  double text_point_variance(int, const Vec3&) const { return sigma * sigma; }
+};
+
+// A world eight times as large has a plane eight times as far away.
+TEST(PlaneFromSurface, ScalesWithTheWorld) {
+  const Vec3 theta(0.1, -0.05, 0.5);
+  TextObject text;
+  text.patch.camera = {300, 300, 160, 120};
+  text.patch.quad.corner = {Vec2(120, 100), Vec2(200, 100), Vec2(200, 140), Vec2(120, 140)};
+  for (const double scale : {1.0, 8.0}) {
+    EvenPoints points;
+    points.sigma = 0.004 * scale;
+    for (int i = 0; i < 60; ++i) {
+      const Vec3 ray = text.patch.camera.unproject(Vec2(110 + 10 * (i % 10), 95 + 10 * (i / 10)));
+      points.all.push_back(scale / theta.dot(ray) * ray);
+    }
+    ASSERT_TRUE(plane_from_surface(TextOptions(), PointLookup(points), SE3d(), points.all, text)) << scale;
+    EXPECT_LT((scale * text.theta - theta).norm(), 0.01 * theta.norm()) << scale;
+  }
+}
+
 }  // namespace landmarks_test

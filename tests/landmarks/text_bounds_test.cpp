@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "support/text_wall.hpp"
+#include "textplane/core/cameras/radial_tangential.hpp"
 
 namespace {
 namespace tp = textplane;
@@ -35,6 +37,25 @@ class TextBoundsTest : public testing::Test {
     return text_in_view(options, text, T_c_w * map.keyframes().text_keyframe(text.host).T_w_c, frame, &quad);
   }
 
+  // Whether the first text counts as near where its sphere touches, from outside, the plane through the camera and
+  // the rays whose coordinate along an axis (x or y) is `m`.
+  bool touches(int axis, double outwards, double m) const {
+    const tp::TextObject& text = map.objects()[0];
+    std::array<tp::Vector3<double>, 4> corners;
+    EXPECT_EQ(quad_points(text.patch.quad, text.patch.camera, text.theta, &corners), tp::Status::ok);
+    const tp::Vector3<double> centre = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    double radius = 0;
+    for (const tp::Vector3<double>& corner : corners) radius = std::max(radius, (corner - centre).norm());
+    tp::Vector3<double> ray(0, 0, 1), outside(0, 0, -outwards * m);
+    ray[axis] = m;
+    outside[axis] = outwards;
+    tp::SE3d T_w_c;
+    T_w_c.t =
+        map.keyframes().text_keyframe(text.host).T_w_c * centre - 20 * ray - (1 - 1e-3) * radius * outside.normalized();
+    const std::vector<std::size_t> found = near(T_w_c.inverse());
+    return std::binary_search(found.begin(), found.end(), std::size_t{0});
+  }
+
   const TextWall wall;
   tp::TextMap map;
   tp::TextImage frame;
@@ -60,6 +81,38 @@ TEST_F(TextBoundsTest, MissesNoTextInViewAndLeavesOutMostOthers) {
   }
   EXPECT_GT(all_in_view, 2000U);
   EXPECT_LT(all_near, 300U * 500U / 10) << "those that are too small or too slanted are among them";
+}
+
+TEST_F(TextBoundsTest, ReachesOnePixelBeyondTheImage) {
+  const tp::Pinhole<double>& k = wall.camera;
+  const double right = frame.width() - 1, bottom = frame.height() - 1;
+  for (const double beyond : {0.5, 1.5}) {
+    const bool near = beyond < 1;
+    EXPECT_EQ(touches(0, -1, (-beyond - k.cx) / k.fx), near) << "left";
+    EXPECT_EQ(touches(0, 1, (right + beyond - k.cx) / k.fx), near) << "right";
+    EXPECT_EQ(touches(1, -1, (-beyond - k.cy) / k.fy), near) << "above";
+    EXPECT_EQ(touches(1, 1, (bottom + beyond - k.cy) / k.fy), near) << "below";
+  }
+}
+
+// Corners and middles of the sides, a tenth wider.
+TEST_F(TextBoundsTest, ReachesATenthBeyondTheRaysOfTheBorderBehindALens) {
+  const tp::LensMap lens(tp::RadialTangential<double>{{}, -0.1, 0.01, 2e-3, -1e-3, 0});
+  frame.camera.lens = &lens;
+  const double right = frame.width() - 1, bottom = frame.height() - 1;
+  tp::Vector2<double> least(0, 0), most(0, 0);
+  for (const double x : {0.0, 0.5 * right, right})
+    for (const double y : {0.0, 0.5 * bottom, bottom}) {
+      tp::Vector3<double> ray;
+      ASSERT_EQ(frame.camera.unproject(tp::Vector2<double>(x, y), &ray), tp::Status::ok);
+      least = least.cwiseMin(ray.head<2>());
+      most = most.cwiseMax(ray.head<2>());
+    }
+  for (const double share : {0.999, 1.001})
+    for (const int axis : {0, 1}) {
+      EXPECT_EQ(touches(axis, -1, 1.1 * share * least[axis]), share < 1) << axis;
+      EXPECT_EQ(touches(axis, 1, 1.1 * share * most[axis]), share < 1) << axis;
+    }
 }
 
 TEST_F(TextBoundsTest, FollowsAPlaneThatChanges) {

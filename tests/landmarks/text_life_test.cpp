@@ -27,6 +27,12 @@ TEST(TextLife, DetectionsCountAsAShareOfTheFramesThatCouldHaveShownIt) {
   EXPECT_FALSE(is_proven(text, options)) << "too few to tell";
 }
 
+TEST(TextLife, WhatNoDetectorSawIsNotDetected) {
+  TextOptions options;
+  options.min_detections = 1;
+  EXPECT_FALSE(is_detected(TextObject(), options));
+}
+
 TEST(TextLife, ATextBeginsWithAWholeQuadOnNoOtherText) {
   const TextOptions options;
   const auto box = [](double x, double y, double width, double height) {

@@ -41,6 +41,13 @@ TEST_F(TextLimits, WithRoundsThePlaneIsFound) {
   EXPECT_LT((theta - Vec3(0, 0, 0.5)).norm(), 1e-6);
 }
 
+TEST_F(TextLimits, OneRoundIsEnoughForMatchesThatAgree) {
+  options.plane_rounds = 1;
+  Vec3 theta = other;
+  ASSERT_TRUE(by_matches(&theta));
+  EXPECT_LT((theta - Vec3(0, 0, 0.5)).norm(), 1e-6);
+}
+
 TEST_F(TextLimits, WithoutARoundNothingIsMadeUp) {
   options.plane_rounds = 0;
   Vec3 theta = other;

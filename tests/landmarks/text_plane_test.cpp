@@ -48,6 +48,24 @@ TEST(PlaneFromTextMatches, LeavesOutliersOut) {
   EXPECT_LT((theta - Vec3(0, 0, 0.5)).norm(), 1e-6);
 }
 
+// A world eight times as large has a plane eight times as far away, however far its points scatter about it.
+TEST(PlaneFromInsidePoints, ScalesWithTheWorld) {
+  TextPatch patch;
+  patch.camera = {300, 300, 160, 120};
+  patch.quad.corner = {Vec2(100, 100), Vec2(200, 100), Vec2(200, 140), Vec2(100, 140)};
+  textplane_test::Random random(8);
+  std::vector<Vec3> inside, far;
+  for (int i = 0; i < 40; ++i) {
+    const double x = random.uniform(100, 200), y = random.uniform(100, 140), depth = 2 + random.uniform(-0.3, 0.3);
+    inside.push_back(depth * patch.camera.unproject(Vec2(x, y)));
+    far.push_back(8 * inside.back());
+  }
+  Vec3 theta, theta_far;
+  ASSERT_TRUE(plane_from_inside_points(TextOptions(), inside, patch, &theta));
+  ASSERT_TRUE(plane_from_inside_points(TextOptions(), far, patch, &theta_far));
+  EXPECT_LT((8 * theta_far - theta).norm(), 1e-12 * theta.norm());
+}
+
 TEST(FrontalPlane, LiesAcrossTheRayAtTheDepth) {
   const Vec3 ray(0.3, -0.4, 1);
   const Vec3 theta = frontal_plane(ray, 4);

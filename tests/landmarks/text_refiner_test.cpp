@@ -47,6 +47,32 @@ TEST_F(TextRefinerTest, ViewsThatDisagreeMakeAPlaneLessSure) {
   EXPECT_LT(angle_error(text) * kDegree, 3 * normal_sigma(text));
 }
 
+Quad<double> quad_of(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  Quad<double> quad;
+  quad.corner = {a, b, c, d};
+  return quad;
+}
+
+TEST(GrownQuad, ARectangleGrowsOnAllFourSides) {
+  const Quad<double> out = detail::grown(quad_of(Vec2(10, 20), Vec2(50, 20), Vec2(50, 35), Vec2(10, 35)), 3);
+  const Quad<double> expected = quad_of(Vec2(7, 17), Vec2(53, 17), Vec2(53, 38), Vec2(7, 38));
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_LT((out.corner[k] - expected.corner[k]).norm(), 1e-12) << k;
+}
+
+TEST(GrownQuad, AMirroredQuadGrowsToTheMirrorOfWhatItGrewTo) {
+  const Vec2 a(0, 0), b(20, -1), c(21, 16), d(0, 8), flip(1, -1), turn(-1, 1);
+  const Quad<double> out = detail::grown(quad_of(a, b, c, d), 3);
+  const auto& [oa, ob, oc, od] = out.corner;
+  const auto expect_same = [](const Quad<double>& x, const Quad<double>& y) {
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_LT((x.corner[k] - y.corner[k]).norm(), 1e-12) << k;
+  };
+  const auto by = [](const Vec2& signs, const Vec2& p) { return Vec2(signs.cwiseProduct(p)); };
+  expect_same(detail::grown(quad_of(by(flip, d), by(flip, c), by(flip, b), by(flip, a)), 3),
+              quad_of(by(flip, od), by(flip, oc), by(flip, ob), by(flip, oa)));
+  expect_same(detail::grown(quad_of(by(turn, b), by(turn, a), by(turn, d), by(turn, c)), 3),
+              quad_of(by(turn, ob), by(turn, oa), by(turn, od), by(turn, oc)));
+}
+
 // Whoever asks for more finds the text as it was.
 TEST_F(TextRefinerTest, ATextWhoseNormalIsUncertainSaysSoAndKeepsWhatIsKnown) {
   TextObject certain = text;

@@ -15,6 +15,18 @@ using namespace textplane_test;
 constexpr int kWidth = 480, kHeight = 320, kSmallWidth = 200, kSmallHeight = 150;
 const tp::Pinhole<double> kHost(400, 400, 239.5, 159.5), kTarget(400, 400, 99.5, 74.5);
 
+// The trace of a covariance is that of the axes it was made of, however they are turned.
+TEST(PositionSigma, IsThatOfTheAxesOfTheCovariance) {
+  Random random(12);
+  for (int trial = 0; trial < 5; ++trial) {
+    const tp::Matrix3<double> R = tp::so3_exp<double>(random.vector<3>(1.5));
+    const double a = random.uniform(0.1, 2), b = random.uniform(0.1, 2), c = random.uniform(0.1, 2);
+    tp::FixedMatrix<double, 6, 6> information = tp::FixedMatrix<double, 6, 6>::Identity();
+    information.topLeftCorner<3, 3>() = R * tp::Vector3<double>(1 / a, 1 / b, 1 / c).asDiagonal() * R.transpose();
+    EXPECT_NEAR(tp::position_sigma(information), std::sqrt(a + b + c), 1e-12);
+  }
+}
+
 tp::Matrix3<double> calibration(const tp::Pinhole<double>& c) {
   tp::Matrix3<double> K;
   K << c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "landmarks/text_map_support.hpp"
 
 namespace text_map_test {
@@ -82,6 +84,29 @@ TEST_F(TextMapTest, TracksWithoutPoints) {
   const TextFit fit = map.track(image(truth), start, {});
   ASSERT_TRUE(fit.refined);
   EXPECT_LT(shift(fit.T_c_w, truth), 0.1 * shift(start, truth));
+}
+
+TEST_F(TextMapTest, TakesTheLeastGainThatIsAskedFor) {
+  const SE3d T = pose(5.5);
+  const auto fit = [&](double least_gain) {
+    textplane::TextMapOptions options;
+    options.least_gain = least_gain;
+    TextMap map(scene.camera, options);
+    walk(map, 6);
+    return map.track(image(T), T, points(T, 0.5));
+  };
+  const double gain = fit(0).gain;
+  ASSERT_GT(gain, 0);
+  EXPECT_TRUE(fit(gain).refined);
+  const TextFit less = fit(std::nextafter(gain, 1.0));
+  EXPECT_FALSE(less.refined);
+  EXPECT_TRUE(same_bits(less.T_c_w, T));
+}
+
+TEST(TextPointTest, IsAsSureAsAPixelUnlessItSaysMore) {
+  EXPECT_EQ(TextPoint::at(Vec2(3, 4), Vec3(0, 0, 1)).sigma, 1);
+  EXPECT_EQ(TextPoint::with_depth(Vec2(3, 4), 2).sigma, 1);
+  EXPECT_EQ(TextPoint::track(Vec2(3, 4), 7).sigma, 1);
 }
 
 TEST_F(TextMapTest, LeavesThePoseToTheBitWhereItHasNothingToSay) {
