@@ -200,6 +200,22 @@ TEST(LensKernels, TemplatesInTheMiddleOfTheImageAreTaken) {
   }
 }
 
+TEST(LensKernels, EveryBorder) {
+  for (const tp::simd::Target target : testable_targets()) {
+    const TargetScope scope(target);
+    for (const Case& c : cases())
+      for (const double way : {-0.03, 0.03, -0.04, 0.04}) {
+        PolicyScene s(4, 60, &c.lens, c.zoom);
+        std::fill(s.x.begin(), s.x.end(), 97.0F);  // narrower than it is high
+        for (int i = 0; i < 40; ++i) {
+          s.T_t_h.t[std::abs(way) < 0.035 ? 0 : 1] += way;
+          ASSERT_EQ(tp::evaluate(s.request(), s.workspace).visible,
+                    tp::reference::evaluate(s.request(), s.workspace).visible);
+        }
+      }
+  }
+}
+
 TEST(LensKernels, Batches) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
