@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "support/spots.hpp"
 #include "textplane/geometry/plane.hpp"
@@ -29,10 +30,14 @@ class InitialiserTest : public testing::Test {
     });
   }
 
+  static SE3d along(int index) {
+    const double way = 0.03 * index;
+    return moved({way, -0.3 * way, 0.4 * way}, {0.1 * way, -0.15 * way, 0.05 * way});
+  }
+
   // Camera `index` on its way, with the boards' detections.
   Frame frame_at(int index) const {
-    const double way = 0.03 * index;
-    const SE3d T_w_c = moved({way, -0.3 * way, 0.4 * way}, {0.1 * way, -0.15 * way, 0.05 * way});
+    const SE3d T_w_c = pose_of(index);
     const SE3d T_b_c = T_w_b.inverse() * T_w_c;
     Image<std::uint8_t> image(map.width, map.height, 128);
     for (int y = 0; y < map.height; ++y)
@@ -69,6 +74,7 @@ class InitialiserTest : public testing::Test {
 
   static constexpr double kHalfWidth = 0.4, kHalfHeight = 0.16;
   double interval = 0.04;                                // s between two frames
+  std::function<SE3d(int)> pose_of = along;              // T_w_c of frame `index`
   const SE3d T_w_b = moved({0, 0, 2}, {0.25, 0.45, 0});  // z of the wall away from the reader
   std::vector<Vec2> boards = {{-0.35, -0.4}, {0.2, 0.3}};
   Parameters parameters;
@@ -120,6 +126,30 @@ TEST_F(InitialiserTest, OneSignAloneDoesNot) {
   boards.pop_back();
   EXPECT_EQ(begin(), -1);
   EXPECT_TRUE(map.keyframes.empty());
+}
+
+// A camera that turns, while it hardly moves, sees nothing of the first reference in the end. Of the next ones it does,
+// so that not all parallax has to come after the turn.
+TEST_F(InitialiserTest, ATurnTakesTheFirstReferenceAlone) {
+  parameters.mode = Mode::points;
+  pose_of = [](int index) { return moved({0.004 * index, 0, 0}, {0, 0.05 * std::min(index, 18), 0}); };
+  boards.clear();
+  for (int column = 0; column < 12; ++column)
+    for (const double y : {-0.5, 0.0, 0.5}) boards.emplace_back(-5 + 0.9 * column, y);
+  const auto reference = [&] { return map.keyframe(0).frame.index; };
+  parameters.init_references = 1;
+  const int alone = begin();
+  ASSERT_GT(alone, 0);
+  const int last = reference();
+  ASSERT_GT(last, 0) << "the first one is lost";
+  parameters.init_references = Parameters().init_references;
+  const int frame = begin();
+  ASSERT_GT(frame, 0);
+  EXPECT_LT(frame, alone);
+  EXPECT_GT(reference(), 0);
+  EXPECT_LT(reference(), last);
+  const SE3d T_a_b = pose_of(reference()).inverse() * pose_of(frame);
+  EXPECT_GT(map.keyframe(1).T_w_c.t.normalized().dot(T_a_b.t.normalized()), std::cos(4 * M_PI / 180));
 }
 
 // Where no motion is ever clearly the best, one is taken after a time, and not after a number of frames.
