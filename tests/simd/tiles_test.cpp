@@ -104,9 +104,20 @@ tp::SE3d motion(double angle, double scale, double x, double y, const tp::Photom
   return T;
 }
 
+// What the kernels need of a patch.
+struct Prepared {
+  explicit Prepared(const tp::PhotometricInput& input) : in(input), workspace(in.patch.n) {
+    EXPECT_EQ(patch.prepare(in.patch), tp::Status::ok);
+  }
+  tp::PhotometricInput in;
+  tp::PhotometricWorkspace workspace;
+  tp::TemplatePatch patch;
+};
+
 // Every kernel that takes tiles. Returns whether the whole patch was visible.
-bool expect_same_of_all(tp::PhotometricInput in, const tp::SE3d& T, const Targets& targets,
-                        const tp::TemplatePatch& prepared, tp::PhotometricWorkspace& workspace) {
+bool expect_same_of_all(Prepared& prepared, const tp::SE3d& T, const Targets& targets) {
+  tp::PhotometricInput& in = prepared.in;
+  tp::PhotometricWorkspace& workspace = prepared.workspace;
   const tp::Vector3<double> theta(0, 0, 1);
   tp::PhotometricOptions o;
   o.min_visible = 1;
@@ -120,11 +131,11 @@ bool expect_same_of_all(tp::PhotometricInput in, const tp::SE3d& T, const Target
   both([&] { return tp::linearise<tp::Parameters::plane>(tp::ResidualRequest{in, theta, T, o}, workspace); });
   both([&] {
     return tp::linearise<tp::Parameters::pose_plane>(
-        tp::ResidualRequest{in, theta, T, o}.by(tp::LinearisePolicy::template_jacobian, &prepared), workspace);
+        tp::ResidualRequest{in, theta, T, o}.by(tp::LinearisePolicy::template_jacobian, &prepared.patch), workspace);
   });
   both([&] {
     return tp::linearise<tp::Parameters::pose>(
-        tp::ResidualRequest{in, theta, T, o}.by(tp::LinearisePolicy::esm, &prepared), workspace);
+        tp::ResidualRequest{in, theta, T, o}.by(tp::LinearisePolicy::esm, &prepared.patch), workspace);
   });
   const auto cost = [&] { return tp::evaluate(tp::ResidualRequest{in, theta, T, o}, workspace); };
   const auto near = run(targets.near_view(), cost), far = run(targets.far_view(), cost);
@@ -142,18 +153,15 @@ TEST(Tiles, SameBitsInEveryOrderAndPose) {
     for (const Order order : {Order::rows, Order::reversed, Order::mirrored, Order::upside_down, Order::serpentine,
                               Order::columns, Order::holes, Order::shuffled}) {
       const Patch patch(size[0], size[1], order, static_cast<unsigned>(size[0]));
-      tp::PhotometricInput in = input_of(patch);
-      tp::PhotometricWorkspace workspace(in.patch.n);
-      tp::TemplatePatch prepared;
-      ASSERT_EQ(prepared.prepare(in.patch), tp::Status::ok);
+      Prepared prepared(input_of(patch));
       for (const tp::simd::Target target : testable_targets()) {
         const TargetScope scope(target);
         SCOPED_TRACE(tp::simd::to_string(target));
         // 0.14 and more are a row in eight pixels; from 1.9 on no tile holds eight.
         for (const double angle : {0.0, 0.01, -0.012, 0.06, -0.13, 0.15, -0.3, 1.5, 3.1})
           for (const double scale : {1.0, 0.6, 1.35, 1.7, 2.1}) {
-            const tp::SE3d T = motion(angle, scale, 104.3, 87.8, in);
-            whole += expect_same_of_all(in, T, targets, prepared, workspace);
+            const tp::SE3d T = motion(angle, scale, 104.3, 87.8, prepared.in);
+            whole += expect_same_of_all(prepared, T, targets);
             ++all;
           }
       }
@@ -169,9 +177,7 @@ TEST(Tiles, SameBitsWhereTurnsAndTiltsReach) {
   tp::PhotometricInput in = input_of(patch);
   in.target_camera.cx = 105;
   in.target_camera.cy = 86;
-  tp::PhotometricWorkspace workspace(in.patch.n);
-  tp::TemplatePatch prepared;
-  ASSERT_EQ(prepared.prepare(in.patch), tp::Status::ok);
+  Prepared prepared(in);
   const double turns[][3] = {{0, 0, 0.12}, {0, 0, -0.12},   {0.4, 0, 0},       {-0.4, 0, 0},      {0, 0.4, 0},
                              {0, -0.4, 0}, {0.3, 0.2, 0.1}, {-0.3, 0.2, -0.1}, {0.3, -0.2, -0.1}, {-0.3, -0.2, 0.1}};
   for (const tp::simd::Target target : testable_targets()) {
@@ -181,7 +187,7 @@ TEST(Tiles, SameBitsWhereTurnsAndTiltsReach) {
       tp::SE3d T;
       T.R = tp::so3_exp<double>({turn[0], turn[1], turn[2]});
       T.t = tp::Vector3<double>(0, 0, 1) - T.R * tp::Vector3<double>(0, 0, 1);
-      EXPECT_TRUE(expect_same_of_all(in, T, targets, prepared, workspace)) << turn[0] << ' ' << turn[1];
+      EXPECT_TRUE(expect_same_of_all(prepared, T, targets)) << turn[0] << ' ' << turn[1];
     }
   }
 }
@@ -192,14 +198,12 @@ TEST(Tiles, SameBitsBehindALens) {
   const Patch patch(100, 40, Order::rows, 12);
   tp::PhotometricInput in = input_of(patch);
   in.lens = &lens;
-  tp::PhotometricWorkspace workspace(in.patch.n);
-  tp::TemplatePatch prepared;
-  ASSERT_EQ(prepared.prepare(in.patch), tp::Status::ok);
+  Prepared prepared(in);
   for (const tp::simd::Target target : testable_targets()) {
     const TargetScope scope(target);
     SCOPED_TRACE(tp::simd::to_string(target));
     for (const double angle : {0.0, 0.02, -0.06, 3.1})
-      EXPECT_TRUE(expect_same_of_all(in, motion(angle, 1, 104.3, 87.8, in), targets, prepared, workspace)) << angle;
+      EXPECT_TRUE(expect_same_of_all(prepared, motion(angle, 1, 104.3, 87.8, in), targets)) << angle;
   }
 }
 
@@ -211,10 +215,7 @@ TEST(Tiles, EveryBorder) {
       const Targets targets(kWidth, kHeight, stride, at_end);
       for (const Order order : {Order::rows, Order::reversed, Order::mirrored, Order::upside_down}) {
         const Patch patch(41, 21, order, 7);
-        tp::PhotometricInput in = input_of(patch);
-        tp::PhotometricWorkspace workspace(in.patch.n);
-        tp::TemplatePatch prepared;
-        ASSERT_EQ(prepared.prepare(in.patch), tp::Status::ok);
+        Prepared prepared(input_of(patch));
         for (const tp::simd::Target target : testable_targets()) {
           const TargetScope scope(target);
           SCOPED_TRACE(tp::simd::to_string(target));
@@ -224,7 +225,7 @@ TEST(Tiles, EveryBorder) {
               const double across = 21.5 + gap, down = 11.5 + gap;
               const double x = side == 0 ? across : side == 1 ? kWidth - 1 - across : 100.3;
               const double y = side == 2 ? down : side == 3 ? kHeight - 1 - down : 80.7;
-              whole += expect_same_of_all(in, motion(0.01, 1, x, y, in), targets, prepared, workspace);
+              whole += expect_same_of_all(prepared, motion(0.01, 1, x, y, prepared.in), targets);
               ++all;
             }
           EXPECT_GT(whole, all / 2);

@@ -21,7 +21,6 @@ class MotionHypotheses {
 
   bool empty() const { return hypotheses_.empty(); }
   bool won() const { return hypotheses_.size() == 1; }
-  void clear() { hypotheses_.clear(); }
 
   /// Motions from the reference a to a second view b, |t| = 1.
   void begin(const std::vector<SE3d>& T_b_a);
