@@ -159,6 +159,8 @@ MUTANTS = [
     ("landmarks/keyframe_store.hpp", "if (all_finite(T_c_w)) entry.keyframe", "entry.keyframe", ["landmarks/keyframe_store_test"]),
     ("landmarks/text_map.hpp", "    mapping_.keyframe_left(id);  // views may", "    // views may", ["landmarks/map/text_map_property_test"]),
     ("landmarks/text_tracking.hpp", "fit.gain < options_.least_gain", "fit.gain > options_.least_gain", ["landmarks/map/text_map_test"]),
+    ("landmarks/text_tracking.hpp", "(has_points && !most_fit)", "false", ["landmarks/map/text_map_test"]),
+    ("landmarks/text_tracking.hpp", "if (similar <= most) continue;", "if (most >= 0) break;", ["landmarks/map/text_map_test"]),
     ("landmarks/text_refiner.hpp", "if (is_bent(estimates, uncertain ? options_.refine_bend_sigmas : 0))", "if (!uncertain && is_bent(estimates, 0))", ["landmarks/planarity_test"]),
     ("landmarks/text_mapping.hpp", "if (text.state == TextState::mapped) drop(text);", "", ["landmarks/planarity_test"]),
     ("landmarks/text_mapping.hpp", "text.id = next_id_++;", "text.id = static_cast<int>(objects_.size());", ["landmarks/map/text_map_property_test"]),

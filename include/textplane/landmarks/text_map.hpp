@@ -37,9 +37,10 @@ class BasicTextMap {
   BasicTextMap& operator=(const BasicTextMap&) = delete;
 
   /// The pose of a frame, from the host's `T_c_w` (by its points, or predicted), by the mapped texts in view and the
-  /// points with p_w. Without points the texts decide alone. Nothing of the map changes before the next key frame,
-  /// which drops what kept disagreeing. The result is the map's, and valid until the next call, which allocates nothing
-  /// where this one saw as much: copy what is to be kept.
+  /// points with p_w: the host's own, unless the texts tell enough and half of those in view fit. Without points the
+  /// texts decide alone. Nothing of the map changes before the next key frame, which drops what kept disagreeing. The
+  /// result is the map's, and valid until the next call, which allocates nothing where this one saw as much: copy what
+  /// is to be kept.
   const TextFit& track(const PyramidView& pyramid, const SE3d& T_c_w, const std::vector<TextPoint>& points) {
     return track(image_of(pyramid), T_c_w, points);
   }

@@ -36,7 +36,7 @@ struct TextFit {
   FixedMatrix<double, 6, 6> information = FixedMatrix<double, 6, 6>::Zero();  ///< Of T_c_w, xi = (v, omega) left.
   double gain = 0;  ///< By how much the texts lower the standard deviation of the camera's position, as a share.
   int texts = 0;    ///< Texts that took part.
-  Status status = Status::invalid_argument;  ///< ok; too_few: no text in view; diverged: texts and points disagree.
+  Status status = Status::invalid_argument;  ///< ok; diverged: texts and points disagree; else too_few.
   std::vector<TextReport> reports;           ///< Of the mapped texts in view.
 };
 
@@ -136,13 +136,13 @@ class BasicTextTracking {
     });
   }
 
-  // Coarse to fine, into the texts' basins: no further, TextPose goes on from there.
-  void approach(const TextImage& image, double scale, SE3d* T_c_w) {
+  // Coarse to fine, into the texts' basins: no further, TextPose goes on from there. Returns how many texts look right.
+  int approach(const TextImage& image, double scale, bool with_points, SE3d* T_c_w) {
     terms_.clear();
     for (const FrameText& text : visible_)
       terms_.push_back(
           {&text.object->patch, text.object->theta, text.T_w_h, 1 / text.object->variance_factor, text.scale_shift});
-    const int n = static_cast<int>(terms_.size()), m = static_cast<int>(points_.size());
+    const int n = static_cast<int>(terms_.size()), m = with_points ? static_cast<int>(points_.size()) : 0;
     workspace_.reserve(terms_.data(), n, m);
     zncc_.assign(visible_.size(), -1.0F);
     PoseOptions pose;
@@ -151,7 +151,29 @@ class BasicTextTracking {
     const PoseFit fit = refine_pose(terms_.data(), n, points_.data(), m, image.pyramid, image.camera, *T_c_w, pose,
                                     workspace_, zncc_.data(), nullptr);
     if (is_ok(fit.status)) *T_c_w = renormalised(fit.T_t_w);
-    for (std::size_t i = 0; i < visible_.size(); ++i) visible_[i].zncc = static_cast<double>(zncc_[i]);
+    return static_cast<int>(std::count_if(
+        zncc_.begin(), zncc_.end(), [this](float zncc) { return static_cast<double>(zncc) >= options_.min_zncc; }));
+  }
+
+  // approach() from where most texts come into their basins. Few points may lead far off: where they leave half of the
+  // texts or more without a match, texts try without them, and from where the frame before was.
+  SE3d find_basin(const TextImage& image, double scale, const SE3d& host, const SE3d& by_points) {
+    const struct {
+      const SE3d& T_c_w;
+      bool with_points;
+    } starts[] = {{by_points, true}, {host, false}, {by_points, false}, {last_, true}, {last_, false}};
+    SE3d best;
+    int most = -1;
+    for (const auto& start : starts) {
+      if (2 * most > static_cast<int>(visible_.size())) break;
+      SE3d T_c_w = start.T_c_w;
+      const int similar = approach(image, scale, start.with_points, &T_c_w);
+      if (similar <= most) continue;
+      most = similar;
+      best = T_c_w;
+    }
+    pose_.judge(visible_, image, best);
+    return best;
   }
 
   static constexpr int kRounds = 5;  // of weighing the texts by their agreement; each may leave one out
@@ -162,6 +184,7 @@ class BasicTextTracking {
   TextPose pose_;
   double point_scale_ = 1;
   TextFit fit_;
+  SE3d last_;  // where the last frame's texts were looked for
   PoseWorkspace workspace_;
   std::vector<PosePointTerm> points_;
   std::vector<PoseTextTerm> terms_;
@@ -193,7 +216,8 @@ const TextFit& BasicTextTracking<Real>::track(const TextImage& image, const SE3d
   const double alone = has_points ? position_sigma(pose_.information()) : 0;
 
   SE3d both = by_points;
-  if (pose_.judge(visible_, image, both) < options_.near_zncc) approach(image, scale, &both);
+  if (pose_.judge(visible_, image, both) < options_.near_zncc) both = find_basin(image, scale, T_c_w, by_points);
+  last_ = both;
   const bool ok = solve_together(image, scale, &both, fit);
   if (!ok || fit.texts == 0) {
     if (std::any_of(fit.reports.begin(), fit.reports.end(), [](const auto& r) { return r.use == TextUse::disagrees; }))
@@ -202,7 +226,8 @@ const TextFit& BasicTextTracking<Real>::track(const TextImage& image, const SE3d
     return fit;
   }
   fit.gain = has_points ? 1 - position_sigma(pose_.information()) / alone : 1;
-  if (fit.gain < options_.least_gain) return fit;
+  const bool most_fit = 2 * fit.texts >= static_cast<int>(visible_.size());
+  if (fit.gain < options_.least_gain || (has_points && !most_fit)) return fit;
   if (has_points &&
       pose_.point_scale(points_, image.camera, both, options_.least_sigma) > options_.most_shift * scale) {
     for (TextReport& report : fit.reports)
@@ -211,7 +236,7 @@ const TextFit& BasicTextTracking<Real>::track(const TextImage& image, const SE3d
     fit.texts = 0;
     return fit;
   }
-  fit.T_c_w = both;
+  fit.T_c_w = last_ = both;
   fit.information = pose_.information();
   fit.refined = true;
   fit.status = Status::ok;

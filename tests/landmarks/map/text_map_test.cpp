@@ -86,6 +86,35 @@ TEST_F(TextMapTest, TracksWithoutPoints) {
   EXPECT_LT(shift(fit.T_c_w, truth), 0.1 * shift(start, truth));
 }
 
+TEST_F(TextMapTest, FindsTheTextsWhereFewPointsLeadAstray) {
+  TextMap map(scene.camera);
+  walk(map, 6);
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const SE3d T = pose(5.5);
+    std::vector<TextPoint> few;
+    for (const TextPoint& point : points(T, 4, seed))
+      if (point.id % 3 == 0 && few.size() < 8) few.push_back(point);
+    const TextFit fit = map.track(image(T), T, few);
+    EXPECT_GE(fit.texts, 2) << seed;
+    EXPECT_LT(shift(fit.T_c_w, T), 0.002) << seed;
+  }
+}
+
+TEST_F(TextMapTest, LeavesThePoseWhereMostTextsDoNotFit) {
+  TextMap map(scene.camera);
+  walk(map, 6);
+  const SE3d T = pose(5.5);
+  scene.signs[1].T_w_h.t.x() += 0.3;
+  const auto seen = points(T, 2);
+  EXPECT_TRUE(map.track(image(T), T, seen).refined);
+  scene.signs[2].T_w_h.t.x() += 0.3;
+  const TextFit fit = map.track(image(T), T, seen);
+  EXPECT_EQ(fit.texts, 1);
+  EXPECT_FALSE(fit.refined);
+  EXPECT_TRUE(same_bits(fit.T_c_w, T));
+  EXPECT_TRUE(map.track(image(T), T, {}).refined);
+}
+
 TEST_F(TextMapTest, TakesTheLeastGainThatIsAskedFor) {
   const SE3d T = pose(5.5);
   const auto fit = [&](double least_gain) {
