@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 184 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 5bc890c8f1f45b44
+// Hash of these files: de347af595b17aa3
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 5bc890c8f1f45b44"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 de347af595b17aa3"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -45367,6 +45367,7 @@ class BasicTextTracking {
     int most = -1;
     for (const auto& start : starts) {
       if (2 * most > static_cast<int>(visible_.size())) break;
+      if (points_.empty() && !start.with_points) continue;  // it was tried: without points both are one
       SE3d T_c_w = start.T_c_w;
       const int similar = approach(image, scale, start.with_points, &T_c_w);
       if (similar <= most) continue;

@@ -166,6 +166,7 @@ class BasicTextTracking {
     int most = -1;
     for (const auto& start : starts) {
       if (2 * most > static_cast<int>(visible_.size())) break;
+      if (points_.empty() && !start.with_points) continue;  // it was tried: without points both are one
       SE3d T_c_w = start.T_c_w;
       const int similar = approach(image, scale, start.with_points, &T_c_w);
       if (similar <= most) continue;
