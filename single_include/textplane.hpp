@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 184 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: de347af595b17aa3
+// Hash of these files: bba7d782327fcdd8
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 de347af595b17aa3"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 bba7d782327fcdd8"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -36396,6 +36396,7 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_LANDMARKS_TEXT_TRACKING_HPP
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -37327,6 +37328,11 @@ TEXTPLANE_END_NAMESPACE
 //   d = H_i^-1 b_i - H_r^-1 b_r     chi2 = d^T (H_i^-1 + H_r^-1)^-1 d
 //
 // as both are taken at one pose. chi2 has as many degrees of freedom as the text determines of the pose.
+//
+// Points that nobody adjusts drift together, and their residuals do not show it. The texts do: with d between all texts
+// and all points, the covariance of the points is f times what their residuals say,
+//
+//   d^T (C_texts + f C_points)^-1 d = degrees of freedom, f >= 1
 #ifndef TEXTPLANE_LANDMARKS_TEXT_POSE_HPP
 #define TEXTPLANE_LANDMARKS_TEXT_POSE_HPP
 
@@ -45138,6 +45144,39 @@ class BasicTextPose {
     return changed || worst;
   }
 
+  /// f of the points, at most 256, after a solve that took their covariances as `f_taken` times what their residuals
+  /// say. Each text is left out in turn and the least f counts, so no text alone makes the points doubtful. 0 where
+  /// fewer than two texts take part, or where either side does not determine the pose.
+  double point_doubt(const std::vector<FrameText>& texts, double f_taken) const noexcept {
+    FixedMatrix<Real, 6, 6> H = FixedMatrix<Real, 6, 6>::Zero();
+    Vector6<Real> b = Vector6<Real>::Zero();
+    int count = 0;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      if (!eliminated_[i].in) continue;
+      ++count;
+      H += texts[i].trust * eliminated_[i].H;
+      b += texts[i].trust * eliminated_[i].b;
+    }
+    if (count < 2) return 0;
+    const FixedMatrix<Real, 6, 6> points = f_taken * (information_ - H);
+    FixedMatrix<Real, 6, 6> covariance;
+    if (!invert(points, 1e-12, &covariance)) return 0;
+    double least = kMostDoubt;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      const Eliminated& text = eliminated_[i];
+      if (!text.in) continue;
+      const Apart apart(H - texts[i].trust * text.H, b - texts[i].trust * text.b, points, covariance, -f_taken * b);
+      if (!apart.ok) return 0;
+      if (apart.freedom < kLeastFreedom) return 1;      // this one says nothing
+      if (apart.chi2(least) > apart.freedom) continue;  // this one asks for more
+      double f = 1;
+      while (f < least && apart.chi2(f) > apart.freedom) f *= kDoubtStep;
+      if (f == 1) return 1;  // no other asks for less
+      least = (std::min)(least, f);
+    }
+    return least;
+  }
+
  private:
   struct Eliminated {
     bool in = false;
@@ -45148,26 +45187,54 @@ class BasicTextPose {
     Vector3<Real> h;
   };
 
-  static constexpr double kStep = 0.01;   // standard deviations
-  static constexpr double kTrust = 0.05;  // a smaller change of trust is none
-  static constexpr double kWeak = 1e-3;   // a direction of which a text knows less than this share is not its own
+  static constexpr double kStep = 0.01;                         // standard deviations
+  static constexpr double kTrust = 0.05;                        // a smaller change of trust is none
+  static constexpr double kMostDoubt = 256, kDoubtStep = 1.25;  // of f
+  static constexpr double kLeastFreedom = 0.5;                  // degrees, of a text that says anything
+  static constexpr double kWeak = 1e-3;  // a direction of which a text knows less than this share is not its own
+
+  static bool invert(const FixedMatrix<Real, 6, 6>& H, double least_pivot, FixedMatrix<Real, 6, 6>* inverse) noexcept {
+    const Ldlt<Real, 6> factors(H, least_pivot);
+    if (factors.ok()) *inverse = factors.inverse();
+    return factors.ok();
+  }
+
+  // Two sets of terms by the minima that each has alone.
+  struct Apart {
+    FixedMatrix<Real, 6, 6> own_covariance, others_covariance;
+    Vector6<Real> d;
+    double freedom = 0;
+    bool ok = false;
+
+    // `covariance` is the inverse of H_others.
+    Apart(const FixedMatrix<Real, 6, 6>& H, const Vector6<Real>& b, const FixedMatrix<Real, 6, 6>& H_others,
+          const FixedMatrix<Real, 6, 6>& covariance, const Vector6<Real>& b_others) noexcept
+        : others_covariance(covariance) {
+      if (!invert(H + kWeak * H_others, 1e-14, &own_covariance)) return;
+      d = own_covariance * b - others_covariance * b_others;
+      freedom =
+          6 - kWeak * H_others.cwiseProduct(own_covariance).sum();  // both are symmetric: the trace of the product
+      ok = true;
+    }
+
+    // With the covariance of the others as `factor` times what their terms say; 0 where it cannot be told.
+    double chi2(double factor) const noexcept {
+      const Ldlt<Real, 6> both(FixedMatrix<Real, 6, 6>(own_covariance + factor * others_covariance), 1e-14);
+      return both.ok() ? d.dot(both.solve(d)) : 0;
+    }
+  };
 
   // r of weigh(); 0 where the rest does not determine the pose.
   double disagreement(const Eliminated& text, double trust) const noexcept {
     if (!text.in) return 0;
-    const FixedMatrix<Real, 6, 6> rest = information_ - trust * text.H;
-    const Ldlt<Real, 6> others(rest, 1e-12);
-    if (!others.ok()) return 0;
-    const Ldlt<Real, 6> own(FixedMatrix<Real, 6, 6>(text.H + kWeak * rest), 1e-14);
-    if (!own.ok()) return 0;
-    const FixedMatrix<Real, 6, 6> own_covariance = own.inverse(), others_covariance = others.inverse();
-    const Ldlt<Real, 6> both(FixedMatrix<Real, 6, 6>(own_covariance + others_covariance), 1e-14);
-    if (!both.ok()) return 0;
     // All terms sum up to b = 0: that of the rest is -trust b_i.
-    const Vector6<Real> apart = own_covariance * text.b + trust * (others_covariance * text.b);
-    const double freedom = 6 - kWeak * (rest * own_covariance).trace();
-    const double chi2 = apart.dot(both.solve(apart));
-    return chi2 > 0 && freedom > 0.5 ? std::sqrt(chi2 / freedom) : 0;
+    const FixedMatrix<Real, 6, 6> rest = information_ - trust * text.H;
+    FixedMatrix<Real, 6, 6> covariance;
+    if (!invert(rest, 1e-12, &covariance)) return 0;
+    const Apart apart(text.H, text.b, rest, covariance, -trust * text.b);
+    if (!apart.ok) return 0;
+    const double chi2 = apart.chi2(1);
+    return chi2 > 0 && apart.freedom > kLeastFreedom ? std::sqrt(chi2 / apart.freedom) : 0;
   }
 
   void add_text(FrameText& text, std::size_t i, const TextImage& image, const SE3d& T_c_w, detail::PoseSystem& system) {
@@ -45235,8 +45302,9 @@ struct TextFit {
   SE3d T_c_w;            ///< World to camera: refined, or the host's own to the bit.
   bool refined = false;  ///< Which of the two.
   FixedMatrix<double, 6, 6> information = FixedMatrix<double, 6, 6>::Zero();  ///< Of T_c_w, xi = (v, omega) left.
-  double gain = 0;  ///< By how much the texts lower the standard deviation of the camera's position, as a share.
-  int texts = 0;    ///< Texts that took part.
+  double gain = 0;   ///< By how much the texts lower the standard deviation of the camera's position, as a share.
+  double drift = 1;  ///< Factor of the points' standard deviations: by so much more than their residuals they err.
+  int texts = 0;     ///< Texts that took part.
   Status status = Status::invalid_argument;  ///< ok; diverged: texts and points disagree; else too_few.
   std::vector<TextReport> reports;           ///< Of the mapped texts in view.
 };
@@ -45253,7 +45321,8 @@ struct TextMapOptions {
   /// disagrees by more, of those that determine four degrees of freedom.
   double text_huber = 1.5;
   double most_disagreement = 4;  ///< The same: one that disagrees by more does not take part.
-  int max_images = 100;  ///< Key frames whose images are kept; of older ones the poses stay where texts need them.
+  int drift_frames = 32;  ///< Of the mean that TextFit::drift is: a drift is slow, and what one frame says is noise.
+  int max_images = 100;   ///< Key frames whose images are kept; of older ones the poses stay where texts need them.
 };
 
 /// Tracks the texts of a TextMap; keeps its memory. For one thread at a time.
@@ -45289,6 +45358,7 @@ class BasicTextTracking {
   bool solve_together(const TextImage& image, double scale, SE3d* both, TextFit& fit) {
     for (FrameText& text : visible_) text.used = text.zncc >= options_.min_zncc;
     bool ok = pose_.solve(points_, scale, visible_, image, both);
+    if (ok) learn_drift();
     bool changed = false;
     for (FrameText& text : visible_) {
       const bool good = text.used && text.zncc >= options_.min_zncc;
@@ -45314,6 +45384,14 @@ class BasicTextTracking {
     }
     return ok;
   }
+
+  // After a solve by all texts that look right, and by points that are trusted as drift() says.
+  void learn_drift() noexcept {
+    const double f = points_.size() >= kFewPoints ? pose_.point_doubt(visible_, drift() * drift()) : 0;
+    if (f > 0) doubt_ += (f - doubt_) / (std::max)(options_.drift_frames, 1);
+  }
+  // One text alone has no other to vouch for it.
+  double drift() const noexcept { return visible_.size() > 1 ? std::sqrt(doubt_) : 1; }
 
   // Of a text that was compared in this frame.
   void count(int id, bool disagrees) {
@@ -45378,13 +45456,14 @@ class BasicTextTracking {
     return best;
   }
 
-  static constexpr int kRounds = 5;  // of weighing the texts by their agreement; each may leave one out
+  static constexpr std::size_t kFewPoints = 8;  // with fewer, their scale is not known
+  static constexpr int kRounds = 5;             // of weighing the texts by their agreement; each may leave one out
 
   const TextMapOptions& options_;
   const TextMapping& mapping_;
   const TextBounds& bounds_;
   TextPose pose_;
-  double point_scale_ = 1;
+  double point_scale_ = 1, doubt_ = 1;
   TextFit fit_;
   SE3d last_;  // where the last frame's texts were looked for
   PoseWorkspace workspace_;
@@ -45410,8 +45489,10 @@ const TextFit& BasicTextTracking<Real>::track(const TextImage& image, const SE3d
   if (visible_.empty()) return fit;
 
   // What the points say alone.
-  const double scale = pose_.point_scale(points_, image.camera, T_c_w, options_.least_sigma);
-  if (points_.size() >= 8) point_scale_ = scale;
+  const double residuals = pose_.point_scale(points_, image.camera, T_c_w, options_.least_sigma);
+  if (points_.size() >= kFewPoints) point_scale_ = residuals;
+  fit.drift = drift();
+  const double scale = fit.drift * residuals;
   SE3d by_points = T_c_w;
   const bool has_points = points_.size() >= 6 && pose_.solve(points_, scale, visible_, image, &by_points);
   if (!has_points) by_points = T_c_w;

@@ -83,13 +83,13 @@ tp::TextMapOptions options_of(Input& in) {
       &options.min_zncc, &options.least_sigma, &options.most_shift, &options.least_gain, &text.plane_min_error,
       &options.text_huber, &options.most_disagreement};
   // clang-format on
-  int* const integers[] = {&text.min_pixels,         &text.levels,        &text.min_corners,  &text.plane_rounds,
-                           &text.min_observations,   &text.views,         &text.max_failures, &text.refine_hosts,
-                           &text.refine_views,       &text.refine_pixels, &text.refine_reach, &text.max_readings,
-                           &text.tentative_patience, &text.max_pixels};
+  int* const integers[] = {&text.min_pixels,         &text.levels,        &text.min_corners,    &text.plane_rounds,
+                           &text.min_observations,   &text.views,         &text.max_failures,   &text.refine_hosts,
+                           &text.refine_views,       &text.refine_pixels, &text.refine_reach,   &text.max_readings,
+                           &text.tentative_patience, &text.max_pixels,    &options.drift_frames};
   for (int changes = in.integer(0, 7) - 4; changes > 0; --changes) {
     *reals[in.integer(0, 33)] = in.number(-1, 4);
-    *integers[in.integer(0, 13)] = in.integer(-2, 20);
+    *integers[in.integer(0, 14)] = in.integer(-2, 20);
   }
   return options;
 }

@@ -15,6 +15,11 @@
 //   d = H_i^-1 b_i - H_r^-1 b_r     chi2 = d^T (H_i^-1 + H_r^-1)^-1 d
 //
 // as both are taken at one pose. chi2 has as many degrees of freedom as the text determines of the pose.
+//
+// Points that nobody adjusts drift together, and their residuals do not show it. The texts do: with d between all texts
+// and all points, the covariance of the points is f times what their residuals say,
+//
+//   d^T (C_texts + f C_points)^-1 d = degrees of freedom, f >= 1
 #ifndef TEXTPLANE_LANDMARKS_TEXT_POSE_HPP
 #define TEXTPLANE_LANDMARKS_TEXT_POSE_HPP
 
@@ -137,6 +142,39 @@ class BasicTextPose {
     return changed || worst;
   }
 
+  /// f of the points, at most 256, after a solve that took their covariances as `f_taken` times what their residuals
+  /// say. Each text is left out in turn and the least f counts, so no text alone makes the points doubtful. 0 where
+  /// fewer than two texts take part, or where either side does not determine the pose.
+  double point_doubt(const std::vector<FrameText>& texts, double f_taken) const noexcept {
+    FixedMatrix<Real, 6, 6> H = FixedMatrix<Real, 6, 6>::Zero();
+    Vector6<Real> b = Vector6<Real>::Zero();
+    int count = 0;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      if (!eliminated_[i].in) continue;
+      ++count;
+      H += texts[i].trust * eliminated_[i].H;
+      b += texts[i].trust * eliminated_[i].b;
+    }
+    if (count < 2) return 0;
+    const FixedMatrix<Real, 6, 6> points = f_taken * (information_ - H);
+    FixedMatrix<Real, 6, 6> covariance;
+    if (!invert(points, 1e-12, &covariance)) return 0;
+    double least = kMostDoubt;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      const Eliminated& text = eliminated_[i];
+      if (!text.in) continue;
+      const Apart apart(H - texts[i].trust * text.H, b - texts[i].trust * text.b, points, covariance, -f_taken * b);
+      if (!apart.ok) return 0;
+      if (apart.freedom < kLeastFreedom) return 1;      // this one says nothing
+      if (apart.chi2(least) > apart.freedom) continue;  // this one asks for more
+      double f = 1;
+      while (f < least && apart.chi2(f) > apart.freedom) f *= kDoubtStep;
+      if (f == 1) return 1;  // no other asks for less
+      least = (std::min)(least, f);
+    }
+    return least;
+  }
+
  private:
   struct Eliminated {
     bool in = false;
@@ -147,26 +185,54 @@ class BasicTextPose {
     Vector3<Real> h;
   };
 
-  static constexpr double kStep = 0.01;   // standard deviations
-  static constexpr double kTrust = 0.05;  // a smaller change of trust is none
-  static constexpr double kWeak = 1e-3;   // a direction of which a text knows less than this share is not its own
+  static constexpr double kStep = 0.01;                         // standard deviations
+  static constexpr double kTrust = 0.05;                        // a smaller change of trust is none
+  static constexpr double kMostDoubt = 256, kDoubtStep = 1.25;  // of f
+  static constexpr double kLeastFreedom = 0.5;                  // degrees, of a text that says anything
+  static constexpr double kWeak = 1e-3;  // a direction of which a text knows less than this share is not its own
+
+  static bool invert(const FixedMatrix<Real, 6, 6>& H, double least_pivot, FixedMatrix<Real, 6, 6>* inverse) noexcept {
+    const Ldlt<Real, 6> factors(H, least_pivot);
+    if (factors.ok()) *inverse = factors.inverse();
+    return factors.ok();
+  }
+
+  // Two sets of terms by the minima that each has alone.
+  struct Apart {
+    FixedMatrix<Real, 6, 6> own_covariance, others_covariance;
+    Vector6<Real> d;
+    double freedom = 0;
+    bool ok = false;
+
+    // `covariance` is the inverse of H_others.
+    Apart(const FixedMatrix<Real, 6, 6>& H, const Vector6<Real>& b, const FixedMatrix<Real, 6, 6>& H_others,
+          const FixedMatrix<Real, 6, 6>& covariance, const Vector6<Real>& b_others) noexcept
+        : others_covariance(covariance) {
+      if (!invert(H + kWeak * H_others, 1e-14, &own_covariance)) return;
+      d = own_covariance * b - others_covariance * b_others;
+      freedom =
+          6 - kWeak * H_others.cwiseProduct(own_covariance).sum();  // both are symmetric: the trace of the product
+      ok = true;
+    }
+
+    // With the covariance of the others as `factor` times what their terms say; 0 where it cannot be told.
+    double chi2(double factor) const noexcept {
+      const Ldlt<Real, 6> both(FixedMatrix<Real, 6, 6>(own_covariance + factor * others_covariance), 1e-14);
+      return both.ok() ? d.dot(both.solve(d)) : 0;
+    }
+  };
 
   // r of weigh(); 0 where the rest does not determine the pose.
   double disagreement(const Eliminated& text, double trust) const noexcept {
     if (!text.in) return 0;
-    const FixedMatrix<Real, 6, 6> rest = information_ - trust * text.H;
-    const Ldlt<Real, 6> others(rest, 1e-12);
-    if (!others.ok()) return 0;
-    const Ldlt<Real, 6> own(FixedMatrix<Real, 6, 6>(text.H + kWeak * rest), 1e-14);
-    if (!own.ok()) return 0;
-    const FixedMatrix<Real, 6, 6> own_covariance = own.inverse(), others_covariance = others.inverse();
-    const Ldlt<Real, 6> both(FixedMatrix<Real, 6, 6>(own_covariance + others_covariance), 1e-14);
-    if (!both.ok()) return 0;
     // All terms sum up to b = 0: that of the rest is -trust b_i.
-    const Vector6<Real> apart = own_covariance * text.b + trust * (others_covariance * text.b);
-    const double freedom = 6 - kWeak * (rest * own_covariance).trace();
-    const double chi2 = apart.dot(both.solve(apart));
-    return chi2 > 0 && freedom > 0.5 ? std::sqrt(chi2 / freedom) : 0;
+    const FixedMatrix<Real, 6, 6> rest = information_ - trust * text.H;
+    FixedMatrix<Real, 6, 6> covariance;
+    if (!invert(rest, 1e-12, &covariance)) return 0;
+    const Apart apart(text.H, text.b, rest, covariance, -trust * text.b);
+    if (!apart.ok) return 0;
+    const double chi2 = apart.chi2(1);
+    return chi2 > 0 && apart.freedom > kLeastFreedom ? std::sqrt(chi2 / apart.freedom) : 0;
   }
 
   void add_text(FrameText& text, std::size_t i, const TextImage& image, const SE3d& T_c_w, detail::PoseSystem& system) {

@@ -3,6 +3,7 @@
 #define TEXTPLANE_LANDMARKS_TEXT_TRACKING_HPP
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -34,8 +35,9 @@ struct TextFit {
   SE3d T_c_w;            ///< World to camera: refined, or the host's own to the bit.
   bool refined = false;  ///< Which of the two.
   FixedMatrix<double, 6, 6> information = FixedMatrix<double, 6, 6>::Zero();  ///< Of T_c_w, xi = (v, omega) left.
-  double gain = 0;  ///< By how much the texts lower the standard deviation of the camera's position, as a share.
-  int texts = 0;    ///< Texts that took part.
+  double gain = 0;   ///< By how much the texts lower the standard deviation of the camera's position, as a share.
+  double drift = 1;  ///< Factor of the points' standard deviations: by so much more than their residuals they err.
+  int texts = 0;     ///< Texts that took part.
   Status status = Status::invalid_argument;  ///< ok; diverged: texts and points disagree; else too_few.
   std::vector<TextReport> reports;           ///< Of the mapped texts in view.
 };
@@ -52,7 +54,8 @@ struct TextMapOptions {
   /// disagrees by more, of those that determine four degrees of freedom.
   double text_huber = 1.5;
   double most_disagreement = 4;  ///< The same: one that disagrees by more does not take part.
-  int max_images = 100;  ///< Key frames whose images are kept; of older ones the poses stay where texts need them.
+  int drift_frames = 32;  ///< Of the mean that TextFit::drift is: a drift is slow, and what one frame says is noise.
+  int max_images = 100;   ///< Key frames whose images are kept; of older ones the poses stay where texts need them.
 };
 
 /// Tracks the texts of a TextMap; keeps its memory. For one thread at a time.
@@ -88,6 +91,7 @@ class BasicTextTracking {
   bool solve_together(const TextImage& image, double scale, SE3d* both, TextFit& fit) {
     for (FrameText& text : visible_) text.used = text.zncc >= options_.min_zncc;
     bool ok = pose_.solve(points_, scale, visible_, image, both);
+    if (ok) learn_drift();
     bool changed = false;
     for (FrameText& text : visible_) {
       const bool good = text.used && text.zncc >= options_.min_zncc;
@@ -113,6 +117,14 @@ class BasicTextTracking {
     }
     return ok;
   }
+
+  // After a solve by all texts that look right, and by points that are trusted as drift() says.
+  void learn_drift() noexcept {
+    const double f = points_.size() >= kFewPoints ? pose_.point_doubt(visible_, drift() * drift()) : 0;
+    if (f > 0) doubt_ += (f - doubt_) / (std::max)(options_.drift_frames, 1);
+  }
+  // One text alone has no other to vouch for it.
+  double drift() const noexcept { return visible_.size() > 1 ? std::sqrt(doubt_) : 1; }
 
   // Of a text that was compared in this frame.
   void count(int id, bool disagrees) {
@@ -177,13 +189,14 @@ class BasicTextTracking {
     return best;
   }
 
-  static constexpr int kRounds = 5;  // of weighing the texts by their agreement; each may leave one out
+  static constexpr std::size_t kFewPoints = 8;  // with fewer, their scale is not known
+  static constexpr int kRounds = 5;             // of weighing the texts by their agreement; each may leave one out
 
   const TextMapOptions& options_;
   const TextMapping& mapping_;
   const TextBounds& bounds_;
   TextPose pose_;
-  double point_scale_ = 1;
+  double point_scale_ = 1, doubt_ = 1;
   TextFit fit_;
   SE3d last_;  // where the last frame's texts were looked for
   PoseWorkspace workspace_;
@@ -209,8 +222,10 @@ const TextFit& BasicTextTracking<Real>::track(const TextImage& image, const SE3d
   if (visible_.empty()) return fit;
 
   // What the points say alone.
-  const double scale = pose_.point_scale(points_, image.camera, T_c_w, options_.least_sigma);
-  if (points_.size() >= 8) point_scale_ = scale;
+  const double residuals = pose_.point_scale(points_, image.camera, T_c_w, options_.least_sigma);
+  if (points_.size() >= kFewPoints) point_scale_ = residuals;
+  fit.drift = drift();
+  const double scale = fit.drift * residuals;
   SE3d by_points = T_c_w;
   const bool has_points = points_.size() >= 6 && pose_.solve(points_, scale, visible_, image, &by_points);
   if (!has_points) by_points = T_c_w;

@@ -140,6 +140,7 @@ void bind_results(py::module_& m) {
   field(fit, "refined", &F::refined, "bool: Which of the two.");
   field(fit, "information", &F::information, "Array: Of T_c_w, xi = (v, omega) left, (6, 6).");
   field(fit, "gain", &F::gain, "float: Share by which the texts lower the deviation of the position.");
+  field(fit, "drift", &F::drift, "float: Factor by which points err more than their residuals say.");
   field(fit, "texts", &F::texts, "int: Texts that took part.");
   result_class(fit);
   py::enum_<tp::TextState>(m, "TextState", "Where a text object is in its life.")
@@ -189,6 +190,7 @@ void bind_options_of_map(py::module_& m) {
   option(o, "most_shift", &O::most_shift, "float: Factor by which texts may raise the points' residuals.");
   option(o, "text_huber", &O::text_huber, "float: Standard deviations by which a text may disagree at full weight.");
   option(o, "most_disagreement", &O::most_disagreement, "float: The same: beyond it a text takes no part.");
+  option(o, "drift_frames", &O::drift_frames, "int: Of the mean that TextFit.drift is.");
   option(o, "max_images", &O::max_images, "int: Key frames whose images are kept.");
 }
 
