@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 184 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: bba7d782327fcdd8
+// Hash of these files: f021de5327404e9a
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 bba7d782327fcdd8"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 f021de5327404e9a"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -45190,7 +45190,7 @@ class BasicTextPose {
   static constexpr double kStep = 0.01;                         // standard deviations
   static constexpr double kTrust = 0.05;                        // a smaller change of trust is none
   static constexpr double kMostDoubt = 256, kDoubtStep = 1.25;  // of f
-  static constexpr double kLeastFreedom = 0.5;                  // degrees, of a text that says anything
+  static constexpr double kLeastFreedom = 0.5;                  // of chi2; a text with less says nothing
   static constexpr double kWeak = 1e-3;  // a direction of which a text knows less than this share is not its own
 
   static bool invert(const FixedMatrix<Real, 6, 6>& H, double least_pivot, FixedMatrix<Real, 6, 6>* inverse) noexcept {
@@ -45212,8 +45212,8 @@ class BasicTextPose {
         : others_covariance(covariance) {
       if (!invert(H + kWeak * H_others, 1e-14, &own_covariance)) return;
       d = own_covariance * b - others_covariance * b_others;
-      freedom =
-          6 - kWeak * H_others.cwiseProduct(own_covariance).sum();  // both are symmetric: the trace of the product
+      // The trace of the product, as both are symmetric.
+      freedom = 6 - kWeak * H_others.cwiseProduct(own_covariance).sum();
       ok = true;
     }
 

@@ -188,7 +188,7 @@ class BasicTextPose {
   static constexpr double kStep = 0.01;                         // standard deviations
   static constexpr double kTrust = 0.05;                        // a smaller change of trust is none
   static constexpr double kMostDoubt = 256, kDoubtStep = 1.25;  // of f
-  static constexpr double kLeastFreedom = 0.5;                  // degrees, of a text that says anything
+  static constexpr double kLeastFreedom = 0.5;                  // of chi2; a text with less says nothing
   static constexpr double kWeak = 1e-3;  // a direction of which a text knows less than this share is not its own
 
   static bool invert(const FixedMatrix<Real, 6, 6>& H, double least_pivot, FixedMatrix<Real, 6, 6>* inverse) noexcept {
@@ -210,8 +210,8 @@ class BasicTextPose {
         : others_covariance(covariance) {
       if (!invert(H + kWeak * H_others, 1e-14, &own_covariance)) return;
       d = own_covariance * b - others_covariance * b_others;
-      freedom =
-          6 - kWeak * H_others.cwiseProduct(own_covariance).sum();  // both are symmetric: the trace of the product
+      // The trace of the product, as both are symmetric.
+      freedom = 6 - kWeak * H_others.cwiseProduct(own_covariance).sum();
       ok = true;
     }
 
