@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 184 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: f021de5327404e9a
+// Hash of these files: 8bfe813a1bb089c2
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 f021de5327404e9a"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 8bfe813a1bb089c2"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -45060,8 +45060,10 @@ inline double text_sigma(const TextObject& text, double zncc) noexcept {
 TEXTPLANE_DEFERRED
 class BasicTextPose {
  public:
+  static constexpr std::size_t kFewestPoints = 8;  ///< Fewer have no scale.
+
   /// Scale of the points' residuals about a pose, in units of their sigmas: the median of |e| / sigma over that of a
-  /// Rayleigh distribution, at least `least`. 1 for fewer than eight points.
+  /// Rayleigh distribution, at least `least`. 1 for fewer than kFewestPoints.
   double point_scale(const std::vector<PosePointTerm>& points, const CameraView& camera, const SE3d& T_c_w,
                      double least) {
     errors_.clear();
@@ -45072,7 +45074,7 @@ class BasicTextPose {
       if (detail::reproject(point, T_c_w, camera, camera.rows ? &row : nullptr, &p, &e))
         errors_.push_back(e.norm() / point.sigma);
     }
-    if (errors_.size() < 8) return 1;
+    if (errors_.size() < kFewestPoints) return 1;
     return (std::max)(least, sigma_of_lengths(errors_));
   }
 
@@ -45387,7 +45389,7 @@ class BasicTextTracking {
 
   // After a solve by all texts that look right, and by points that are trusted as drift() says.
   void learn_drift() noexcept {
-    const double f = points_.size() >= kFewPoints ? pose_.point_doubt(visible_, drift() * drift()) : 0;
+    const double f = points_.size() >= TextPose::kFewestPoints ? pose_.point_doubt(visible_, drift() * drift()) : 0;
     if (f > 0) doubt_ += (f - doubt_) / (std::max)(options_.drift_frames, 1);
   }
   // One text alone has no other to vouch for it.
@@ -45456,8 +45458,7 @@ class BasicTextTracking {
     return best;
   }
 
-  static constexpr std::size_t kFewPoints = 8;  // with fewer, their scale is not known
-  static constexpr int kRounds = 5;             // of weighing the texts by their agreement; each may leave one out
+  static constexpr int kRounds = 5;  // of weighing the texts by their agreement; each may leave one out
 
   const TextMapOptions& options_;
   const TextMapping& mapping_;
@@ -45490,7 +45491,7 @@ const TextFit& BasicTextTracking<Real>::track(const TextImage& image, const SE3d
 
   // What the points say alone.
   const double residuals = pose_.point_scale(points_, image.camera, T_c_w, options_.least_sigma);
-  if (points_.size() >= kFewPoints) point_scale_ = residuals;
+  if (points_.size() >= TextPose::kFewestPoints) point_scale_ = residuals;
   fit.drift = drift();
   const double scale = fit.drift * residuals;
   SE3d by_points = T_c_w;

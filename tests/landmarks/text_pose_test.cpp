@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "landmarks/text_map_support.hpp"
 
 namespace text_map_test {
@@ -87,6 +90,27 @@ TEST_F(TextPoseTest, TextsDisagreeByTheDistanceOfTheirOwnPoses) {
   ASSERT_TRUE(solver.solve({}, 1, texts, view, &both, 60));
   EXPECT_TRUE(solver.weigh(texts, 1e-3, 1e6));
   for (const auto& text : texts) EXPECT_NEAR(1e-3 / text.trust, r, 0.05 * r);
+}
+
+// Points that have all moved by the same: their residuals stay as they are.
+TEST_F(TextPoseTest, TheDoubtOfThePointsBringsTextsAndPointsTogether) {
+  const Pyramid frame = image(pose(5.5));
+  const textplane::TextImage view = view_of(frame);
+  std::vector<textplane::FrameText> texts;
+  for (const TextObject& object : objects) texts.push_back(used(object));
+  std::vector<textplane::PosePointTerm> terms;
+  for (const TextPoint& point : points(pose(5.5), 0.3)) terms.push_back({point.p_w + Vec3(0.005, 0, 0), point.px, 1});
+  SE3d at = pose(5.5);
+  ASSERT_TRUE(solver.solve(terms, 0.3, texts, view, &at, 60));
+  const double f = solver.point_doubt(texts, 1);
+  ASSERT_GT(f, 4);
+  ASSERT_LT(f, 250);
+  // It is the same however the points were weighed before.
+  ASSERT_TRUE(solver.solve(terms, 0.3 * std::sqrt(f), texts, view, &at, 60));
+  EXPECT_NEAR(std::log(solver.point_doubt(texts, f)), std::log(f), 0.5);
+  texts[1].used = texts[2].used = false;
+  ASSERT_TRUE(solver.solve(terms, 0.3, texts, view, &at, 60));
+  EXPECT_EQ(solver.point_doubt(texts, 1), 0) << "one text";
 }
 
 }  // namespace text_map_test

@@ -58,8 +58,10 @@ inline double text_sigma(const TextObject& text, double zncc) noexcept {
 TEXTPLANE_DEFERRED
 class BasicTextPose {
  public:
+  static constexpr std::size_t kFewestPoints = 8;  ///< Fewer have no scale.
+
   /// Scale of the points' residuals about a pose, in units of their sigmas: the median of |e| / sigma over that of a
-  /// Rayleigh distribution, at least `least`. 1 for fewer than eight points.
+  /// Rayleigh distribution, at least `least`. 1 for fewer than kFewestPoints.
   double point_scale(const std::vector<PosePointTerm>& points, const CameraView& camera, const SE3d& T_c_w,
                      double least) {
     errors_.clear();
@@ -70,7 +72,7 @@ class BasicTextPose {
       if (detail::reproject(point, T_c_w, camera, camera.rows ? &row : nullptr, &p, &e))
         errors_.push_back(e.norm() / point.sigma);
     }
-    if (errors_.size() < 8) return 1;
+    if (errors_.size() < kFewestPoints) return 1;
     return (std::max)(least, sigma_of_lengths(errors_));
   }
 

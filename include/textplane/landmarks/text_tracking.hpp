@@ -120,7 +120,7 @@ class BasicTextTracking {
 
   // After a solve by all texts that look right, and by points that are trusted as drift() says.
   void learn_drift() noexcept {
-    const double f = points_.size() >= kFewPoints ? pose_.point_doubt(visible_, drift() * drift()) : 0;
+    const double f = points_.size() >= TextPose::kFewestPoints ? pose_.point_doubt(visible_, drift() * drift()) : 0;
     if (f > 0) doubt_ += (f - doubt_) / (std::max)(options_.drift_frames, 1);
   }
   // One text alone has no other to vouch for it.
@@ -189,8 +189,7 @@ class BasicTextTracking {
     return best;
   }
 
-  static constexpr std::size_t kFewPoints = 8;  // with fewer, their scale is not known
-  static constexpr int kRounds = 5;             // of weighing the texts by their agreement; each may leave one out
+  static constexpr int kRounds = 5;  // of weighing the texts by their agreement; each may leave one out
 
   const TextMapOptions& options_;
   const TextMapping& mapping_;
@@ -223,7 +222,7 @@ const TextFit& BasicTextTracking<Real>::track(const TextImage& image, const SE3d
 
   // What the points say alone.
   const double residuals = pose_.point_scale(points_, image.camera, T_c_w, options_.least_sigma);
-  if (points_.size() >= kFewPoints) point_scale_ = residuals;
+  if (points_.size() >= TextPose::kFewestPoints) point_scale_ = residuals;
   fit.drift = drift();
   const double scale = fit.drift * residuals;
   SE3d by_points = T_c_w;

@@ -1,9 +1,7 @@
 // Points that drift together: their residuals do not show it, the texts do.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "landmarks/text_map_support.hpp"
 
@@ -83,34 +81,6 @@ TEST_F(TextDriftTest, OneTextInViewIsNotTrustedAboveThePoints) {
     EXPECT_EQ(fit.drift > 1, least > 1);
   }
   EXPECT_EQ(least, 1U);
-}
-
-TEST_F(TextDriftTest, TheFactorBringsTextsAndPointsTogether) {
-  textplane::TextImage view;
-  view.pyramid = frame.view();
-  view.camera = scene.camera;
-  std::vector<textplane::FrameText> texts;
-  for (const TextObject& object : map.objects()) {
-    textplane::FrameText text;
-    text.object = &object;
-    text.T_w_h = map.keyframes().text_keyframe(object.host).T_w_c;
-    text.used = true;
-    texts.push_back(text);
-  }
-  std::vector<textplane::PosePointTerm> terms;
-  for (const TextPoint& point : points(T, 0.3)) terms.push_back({point.p_w + Vec3(kDrift, 0, 0), point.px, 1});
-  textplane::TextPose solver;
-  SE3d at = T;
-  ASSERT_TRUE(solver.solve(terms, 0.3, texts, view, &at, 60));
-  const double f = solver.point_doubt(texts, 1);
-  ASSERT_GT(f, 4);
-  ASSERT_LT(f, 250);
-  // It is the same however the points were weighed before.
-  ASSERT_TRUE(solver.solve(terms, 0.3 * std::sqrt(f), texts, view, &at, 60));
-  EXPECT_NEAR(std::log(solver.point_doubt(texts, f)), std::log(f), 0.5);
-  texts[1].used = texts[2].used = false;
-  ASSERT_TRUE(solver.solve(terms, 0.3, texts, view, &at, 60));
-  EXPECT_EQ(solver.point_doubt(texts, 1), 0) << "one text";
 }
 
 }  // namespace text_map_test
