@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 184 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 8bfe813a1bb089c2
+// Hash of these files: 20430fcae2566d2f
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 8bfe813a1bb089c2"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 20430fcae2566d2f"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -16010,10 +16010,11 @@ TEXTPLANE_END_NAMESPACE
 // pinhole's of m_d. Whatever the model, near one patch s is a polynomial in r^2: exactly for a radial-tangential lens,
 // and within 1e-6 px for others. So one kernel serves all models, and none evaluates an arc tangent or a root a pixel.
 //
-// Between warp and taps the kernels then add the lens step: positions relative to that of m0, so that their error grows
-// with the patch and not with the image, and the 2 x 2 derivative. Its transpose takes the image's gradient to the
-// pinhole image, where all that follows is as without a lens. Error of positions: 2e-5 px for patches of 128 px, twice
-// that without a lens; what residual.hpp and batch.hpp state of sums doubles with it.
+// Between warp and taps the kernels then add the lens step: what the lens changes of a pinhole image that agrees with
+// it at m0, so that the error grows with the patch and not with the image, and the 2 x 2 derivative. Its transpose
+// takes the image's gradient to the pinhole image, where all that follows is as without a lens. Error of positions:
+// 2e-5 px for patches of 128 px, twice that without a lens; what residual.hpp and batch.hpp state of sums doubles with
+// it.
 #ifndef TEXTPLANE_SIMD_LENS_HPP
 #define TEXTPLANE_SIMD_LENS_HPP
 
@@ -16038,23 +16039,25 @@ struct LensFit {
 }  // namespace simd
 
 namespace detail {
-// A fit for one image. Behind a lens the kernels' target is the plane z = 1: the positions of rows are m - m0, and
-// gradients are by m. Image positions are relative to (ox, oy). Factors of fx are in s, c, p.
+// A fit for one image. Behind a lens the kernels' target is a pinhole image: it has the scale of the lens at m0, and
+// shows m0 where the lens does. Positions of rows are its pixels e, relative to (ox, oy), and gradients are by e.
 struct LensFrame {
-  float mx, my, r0;                                    // m0, |m0|^2
-  float sx, sy, aspect;                                // fx and fy times the factor of m at m0; fy / fx
-  float ax, ay;                                        // image position of m0
-  float c[simd::kLensTerms], slope[simd::kLensTerms];  // of s less that at m0, by t, and of twice its derivative
-  float p1, p2, tx, ty;                                // 2 fx p; what the tangential part adds a unit of t
-  float t_low, t_high;
+  float x_scale, x_shift, y_scale, y_shift;  // m = scale e + shift
+  float r0, aspect;                          // |m0|^2; fy / fx
+  float c[simd::kLensTerms];                 // fx (s - s(m0)) = t (c[0] + t (c[1] + ...)), t = |m|^2 - |m0|^2
+  float slope[simd::kLensTerms];             // 2 x_scale times the derivative of that by t
+  float p1, p2, p0;                          // 2 fx (w - w(m0)) of the tangential part = p2 e_x + p1 e_y + p0
+  float tx, ty;                              // fx p2, fy p1: what it moves a unit of t
+  float t_low, t_high;                       // t beyond these has no pixel
+  float box[4];      // of the patch's image positions: x_low, y_low, x_high, y_high; empty where not all are in front
+  double camera[4];  // fx, fy, cx, cy of that pinhole image
   int terms;
-  bool tangential;
   int ox, oy;
-  float box[4];  // of the patch's image positions: x_low, y_low, x_high, y_high; empty where not all are in front
-  bool on;       // false: there is no lens, and nothing else is set
+  bool tangential;
+  bool on;  // false: there is no lens, and nothing else is set
 };
 
-// Between the loops over a strip: the factor of m in m_d, and the part of its gradient that is along m, a unit of m.
+// Between the loops over a strip: the factor of m in m_d, as a share of that at m0, and how it rises.
 struct LensStrip {
   float s[kStrip], slope[kStrip];
 };
@@ -16088,50 +16091,63 @@ namespace detail {
 namespace TEXTPLANE_SIMD_REGION {
 // The lens step between warp and taps (simd/lens.hpp). Include before: kernels/sample.inl.
 //
-// With w = p1 y + p2 x the model is m_d = (s + 2 w) m + r^2 (p2, p1). Relative to m0: d = m - m0, change = s + 2 w less
-// that at m0; then m_d moves by change m + (s0 + 2 w0) d + (r^2 - |m0|^2) (p2, p1).
+// With w = p1 y + p2 x the model is m_d = (s + 2 w) m + r^2 (p2, p1). The pinhole image has the focal lengths
+// (fx, fy) (s0 + 2 w0) and shows m0 where the lens does. So what the lens shows at m is a pixel of it, moved by
+// fx (change m + (r^2 - |m0|^2) (p2, p1)) in x, change being s + 2 w less that at m0; likewise in y.
 
-// The frame of a fit for a pinhole (fx, fy, cx, cy) and an image of this size. False where that is too far out for
-// float.
+// The frame of a fit for a pinhole (fx, fy, cx, cy) and an image of this size. False where float does not hold it.
 TEXTPLANE_SIMD_INLINE bool make_lens_frame(const simd::LensFit& fit, const double* camera, int width, int height,
                                            LensFrame* l) noexcept {
   const double fx = camera[0], fy = camera[1], x = fit.m0[0], y = fit.m0[1], p1 = fit.p[0], p2 = fit.p[1];
   const double r0 = fit.r0, s = fit.c[0] + 2 * (p1 * y + p2 * x);
   const double px = fx * (s * x + r0 * p2) + camera[2], py = fy * (s * y + r0 * p1) + camera[3];
   if (!(px > -1e6 && px < 1e6 && py > -1e6 && py < 1e6 && r0 < 1e6)) return false;
+  if (!(s > 1e-3 && fx > 1e-20 && fy > 1e-20)) return false;
   l->ox = !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
   l->oy = !(py > 0) ? 0 : py < height - 1 ? static_cast<int>(py + 0.5) : height - 1;
-  l->mx = static_cast<float>(x);
-  l->my = static_cast<float>(y);
+  const double x_scale = 1 / (fx * s), y_scale = 1 / (fy * s), ax = px - l->ox, ay = py - l->oy;
+  l->camera[0] = fx * s;
+  l->camera[1] = fy * s;
+  l->camera[2] = px - l->camera[0] * x;
+  l->camera[3] = py - l->camera[1] * y;
+  l->x_scale = static_cast<float>(x_scale);
+  l->y_scale = static_cast<float>(y_scale);
+  l->x_shift = static_cast<float>(x - ax * x_scale);
+  l->y_shift = static_cast<float>(y - ay * y_scale);
   l->r0 = static_cast<float>(r0);
-  l->sx = static_cast<float>(fx * s);
-  l->sy = static_cast<float>(fy * s);
   l->aspect = static_cast<float>(fy / fx);
-  l->ax = static_cast<float>(px - l->ox);
-  l->ay = static_cast<float>(py - l->oy);
-  for (int k = 0; k < simd::kLensTerms; ++k) {
+  const bool all = fit.terms > 6 || (fit.terms > 3 && (p1 != 0 || p2 != 0));
+  l->terms = all ? static_cast<int>(simd::kLensTerms) : fit.terms;
+  for (int k = 0; k < l->terms; ++k) {
     l->c[k] = static_cast<float>(fx * fit.c[k + 1]);
-    l->slope[k] = static_cast<float>(2 * fx * (k + 1) * fit.c[k + 1]);
+    l->slope[k] = static_cast<float>(2 / s * (k + 1) * fit.c[k + 1]);
   }
-  l->p1 = static_cast<float>(2 * fx * p1);
-  l->p2 = static_cast<float>(2 * fx * p2);
+  l->p1 = static_cast<float>(2 * fx * p1 * y_scale);
+  l->p2 = static_cast<float>(2 * fx * p2 * x_scale);
+  l->p0 = static_cast<float>(-2 * fx * (p1 * ay * y_scale + p2 * ax * x_scale));
   l->tx = static_cast<float>(fx * p2);
   l->ty = static_cast<float>(fy * p1);
   l->t_low = static_cast<float>(fit.low - r0);
   l->t_high = static_cast<float>(fit.high - r0);
   l->tangential = p1 != 0 || p2 != 0;
-  l->terms = !l->tangential || fit.terms <= 3 ? fit.terms : static_cast<int>(simd::kLensTerms);
   l->on = true;
   return true;
+}
+// The same image with the origin moved by (dx, dy).
+TEXTPLANE_SIMD_INLINE void move_lens_origin(int dx, int dy, LensFrame* l) noexcept {
+  const float x = static_cast<float>(dx), y = static_cast<float>(dy);
+  l->x_shift += x * l->x_scale;
+  l->y_shift += y * l->y_scale;
+  l->p0 += l->p2 * x + l->p1 * y;
 }
 
 // The constants of a frame in all lanes.
 struct LensVectors {
-  vf mx, my, r0, sx, sy, aspect, ax, ay, p1, p2, tx, ty;
+  vf x_scale, x_shift, y_scale, y_shift, r0, aspect, p1, p2, p0, tx, ty;
 };
 TEXTPLANE_SIMD_INLINE LensVectors broadcast_lens(const LensFrame& l) noexcept {
-  return LensVectors{set1(l.mx), set1(l.my), set1(-l.r0), set1(l.sx), set1(l.sy), set1(l.aspect),
-                     set1(l.ax), set1(l.ay), set1(l.p1),  set1(l.p2), set1(l.tx), set1(l.ty)};
+  return LensVectors{set1(l.x_scale), set1(l.x_shift), set1(l.y_scale), set1(l.y_shift), set1(-l.r0), set1(l.aspect),
+                     set1(l.p1),      set1(l.p2),      set1(l.p0),      set1(l.tx),      set1(l.ty)};
 }
 
 // How a lens is evaluated: by so many terms, with a tangential part or without.
@@ -16140,61 +16156,69 @@ TEXTPLANE_SIMD_INLINE int lens_kind(const LensFrame& l) noexcept {
   return l.terms > 6 ? kLensLong : l.terms > 3 ? kLensMiddle : l.tangential ? kLensTangential : kLensShort;
 }
 
-// Image positions of kLanes rays m0 + (dx, dy), and their t. With `slopes`, what LensStrip holds of them.
-TEXTPLANE_SIMD_INLINE void lens_vector(const LensFrame& l, const LensVectors& v, int kind, bool slopes, vf dx, vf dy,
+// Image positions of kLanes pixels (ex, ey) of the pinhole image, and their t. With `slopes`, what LensStrip holds of
+// them.
+TEXTPLANE_SIMD_INLINE void lens_vector(const LensFrame& l, const LensVectors& v, int kind, bool slopes, vf ex, vf ey,
                                        vf* out_x, vf* out_y, vf* out_t, vf* s, vf* slope) noexcept {
   const int terms = kind == kLensLong ? static_cast<int>(simd::kLensTerms) : kind == kLensMiddle ? 6 : 3;
   const bool tangential = kind == kLensLong || kind == kLensTangential;
-  const vf x = add(dx, v.mx), y = add(dy, v.my), t = madd(x, x, madd(y, y, v.r0));
+  const vf x = madd(v.x_scale, ex, v.x_shift), y = madd(v.y_scale, ey, v.y_shift);
+  const vf t = madd(x, x, madd(y, y, v.r0));
   vf change = set1(l.c[terms - 1]);
   TEXTPLANE_SIMD_UNROLL
   for (int k = terms - 2; k >= 0; --k) change = madd(change, t, set1(l.c[k]));
-  change = mul(change, t);
-  if (tangential) change = madd(v.p1, dy, madd(v.p2, dx, change));
-  vf at_x = madd(v.sx, dx, v.ax), at_y = madd(v.sy, dy, v.ay);
-  if (tangential) {
-    at_x = madd(v.tx, t, at_x);
-    at_y = madd(v.ty, t, at_y);
-  }
-  *out_x = madd(change, x, at_x);
-  *out_y = madd(mul(change, v.aspect), y, at_y);
+  change = tangential ? madd(change, t, madd(v.p1, ey, madd(v.p2, ex, v.p0))) : mul(change, t);
+  *out_x = madd(change, x, tangential ? madd(v.tx, t, ex) : ex);
+  *out_y = madd(mul(change, v.aspect), y, tangential ? madd(v.ty, t, ey) : ey);
   *out_t = t;
   if (!slopes) return;
   vf derivative = set1(l.slope[terms - 1]);
   TEXTPLANE_SIMD_UNROLL
   for (int k = terms - 2; k >= 0; --k) derivative = madd(derivative, t, set1(l.slope[k]));
-  *s = add(v.sx, change);
+  *s = madd(change, v.x_scale, set1(1.0F));
   *slope = derivative;
 }
 
 // One vector of positions; where the lens has no pixel for them, far outside of every image.
-TEXTPLANE_SIMD_ENTRY void lens_or_outside(const LensFrame& l, vf dx, vf dy, vf* out_x, vf* out_y) noexcept {
+TEXTPLANE_SIMD_ENTRY void lens_or_outside(const LensFrame& l, vf ex, vf ey, vf* out_x, vf* out_y) noexcept {
   const LensVectors v = broadcast_lens(l);
   vf x, y, t, unused_s, unused_slope;
   switch (lens_kind(l)) {
-    case kLensShort: lens_vector(l, v, kLensShort, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope); break;
+    case kLensShort: lens_vector(l, v, kLensShort, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope); break;
     case kLensTangential:
-      lens_vector(l, v, kLensTangential, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope);
+      lens_vector(l, v, kLensTangential, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope);
       break;
-    case kLensMiddle: lens_vector(l, v, kLensMiddle, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope); break;
-    default: lens_vector(l, v, kLensLong, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope);
+    case kLensMiddle: lens_vector(l, v, kLensMiddle, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope); break;
+    default: lens_vector(l, v, kLensLong, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope);
   }
   const vm held = and_(ge(t, set1(l.t_low)), le(t, set1(l.t_high)));
   *out_x = select(held, x, set1(-1e9F));
   *out_y = select(held, y, set1(-1e9F));
 }
 
-// Warp and lens of n <= kStrip host pixels: rays to x and y, cells of their image positions to the strip; the first
-// `held`, whole v16, as cells of tiles. Whole vectors are written.
-TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f, const LensFrame& l, int kind,
-                                     bool slopes, const ImageTiles& tiles, int held,
-                                     const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
-                                     int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
-                                     SampleStrip* TEXTPLANE_SIMD_RESTRICT strip,
-                                     LensStrip* TEXTPLANE_SIMD_RESTRICT lens) noexcept {
+// Pixels of the pinhole image of n <= kStrip host pixels. Whole vectors are written. (One loop for this and the lens
+// measured slower.)
+TEXTPLANE_SIMD_INLINE void warp_before_lens(const simd::Warp8& w, const float* TEXTPLANE_SIMD_RESTRICT px,
+                                            const float* TEXTPLANE_SIMD_RESTRICT py, int n,
+                                            float* TEXTPLANE_SIMD_RESTRICT x,
+                                            float* TEXTPLANE_SIMD_RESTRICT y) noexcept {
   const WarpVectors warp = broadcast_warp(w);
+  for (int i = 0; i < n; i += kLanes) {
+    vf ex, ey, divisor;
+    warp_vector(warp, load_part(px + i, n - i), load_part(py + i, n - i), &ex, &ey, &divisor);
+    store(x + i, ex);
+    store(y + i, ey);
+  }
+}
+
+// The lens of n such pixels x, y: cells of their image positions to the strip; the first `held`, whole v16, as cells of
+// tiles. Whole vectors are written.
+TEXTPLANE_SIMD_INLINE void lens_loop(const SampleFrame& f, const LensFrame& l, int kind, bool slopes,
+                                     const ImageTiles& tiles, int held, int n, const float* TEXTPLANE_SIMD_RESTRICT x,
+                                     const float* TEXTPLANE_SIMD_RESTRICT y, SampleStrip* TEXTPLANE_SIMD_RESTRICT strip,
+                                     LensStrip* TEXTPLANE_SIMD_RESTRICT lens) noexcept {
   const LensVectors v = broadcast_lens(l);
-  vf dx, dy, divisor, at_x, at_y, unused_t, s, slope;
+  vf at_x, at_y, unused_t, s, slope;
   if (kInt16Tiles != 0 && held > 0) {
     const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(tiles.x_high));
     const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(tiles.y_high));
@@ -16203,10 +16227,7 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
       TEXTPLANE_SIMD_UNROLL
       for (int k = 0; k < 2; ++k) {
         const int j = i + k * kLanes;
-        warp_vector(warp, load(px + j), load(py + j), &dx, &dy, &divisor);
-        lens_vector(l, v, kind, slopes, dx, dy, &at_x, &at_y, &unused_t, &s, &slope);
-        store(x + j, dx);
-        store(y + j, dy);
+        lens_vector(l, v, kind, slopes, load(x + j), load(y + j), &at_x, &at_y, &unused_t, &s, &slope);
         if (slopes) {
           store(lens->s + j, s);
           store(lens->slope + j, slope);
@@ -16220,10 +16241,7 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
   }
   const CellVectors cells = broadcast_cells(f);
   for (int i = held; i < n; i += kLanes) {
-    warp_vector(warp, load_part(px + i, n - i), load_part(py + i, n - i), &dx, &dy, &divisor);
-    lens_vector(l, v, kind, slopes, dx, dy, &at_x, &at_y, &unused_t, &s, &slope);
-    store(x + i, dx);
-    store(y + i, dy);
+    lens_vector(l, v, kind, slopes, load(x + i), load(y + i), &at_x, &at_y, &unused_t, &s, &slope);
     if (slopes) {
       store(lens->s + i, s);
       store(lens->slope + i, slope);
@@ -16234,32 +16252,37 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
 TEXTPLANE_SIMD_INLINE void lens_strip(const simd::Warp8& w, const SampleFrame& f, const LensFrame& l, bool slopes,
                                       const ImageTiles& tiles, int held, const float* px, const float* py, int n,
                                       float* x, float* y, SampleStrip* strip, LensStrip* lens) noexcept {
+  warp_before_lens(w, px, py, n, x, y);
   switch (lens_kind(l)) {
-    case kLensShort: return lens_loop(w, f, l, kLensShort, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    case kLensTangential: return lens_loop(w, f, l, kLensTangential, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    case kLensMiddle: return lens_loop(w, f, l, kLensMiddle, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    default: return lens_loop(w, f, l, kLensLong, slopes, tiles, held, px, py, n, x, y, strip, lens);
+    case kLensShort: return lens_loop(f, l, kLensShort, slopes, tiles, held, n, x, y, strip, lens);
+    case kLensTangential: return lens_loop(f, l, kLensTangential, slopes, tiles, held, n, x, y, strip, lens);
+    case kLensMiddle: return lens_loop(f, l, kLensMiddle, slopes, tiles, held, n, x, y, strip, lens);
+    default: return lens_loop(f, l, kLensLong, slopes, tiles, held, n, x, y, strip, lens);
   }
 }
 
-// Values of n cells, and gradients by m: the transpose of the lens's derivative turns those of the image. x, y are
-// rays.
+// Values of n cells, and gradients by e: the transpose of the lens's derivative turns those of the image. x, y are
+// pixels of the pinhole image. With S = 1 + x_scale change and out = x gx + aspect y gy the gradient is
+// S (gx, gy) + along (x, y / aspect) + (p2, p1) out, along = slope out + 2 x_scale (tx gx + ty gy).
 TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangential, bool paired,
                                               const SampleStrip& strip, const LensStrip& lens,
                                               const float* TEXTPLANE_SIMD_RESTRICT x,
                                               const float* TEXTPLANE_SIMD_RESTRICT y, int n,
                                               float* TEXTPLANE_SIMD_RESTRICT value, float* TEXTPLANE_SIMD_RESTRICT a,
                                               float* TEXTPLANE_SIMD_RESTRICT b) noexcept {
-  const vf mx = set1(l.mx), my = set1(l.my), aspect = set1(l.aspect), p1 = set1(l.p1), p2 = set1(l.p2);
+  const float wide = 1.0F / l.aspect;
+  const vf x_scale = set1(l.x_scale), x_shift = set1(l.x_shift), out_scale = set1(l.y_scale * l.aspect),
+           out_shift = set1(l.y_shift * l.aspect), along_scale = set1(l.y_scale * wide),
+           along_shift = set1(l.y_shift * wide), p1 = set1(l.p1), p2 = set1(l.p2), tx = set1(2.0F * l.x_scale * l.tx),
+           ty = set1(2.0F * l.x_scale * l.ty);
   for (int i = 0; i < n; i += kLanes) {
     vf here, gx, gy;
     interpolate_vector(strip, i, paired, &here, &gx, &gy);
-    const vf X = add(load(x + i), mx), Y = add(load(y + i), my), s = load(lens.s + i);
-    gy = mul(gy, aspect);
-    const vf out = madd(gx, X, mul(gy, Y));
+    const vf ey = load(y + i), X = madd(x_scale, load(x + i), x_shift), s = load(lens.s + i);
+    const vf out = madd(gx, X, mul(gy, madd(out_scale, ey, out_shift))), Y = madd(along_scale, ey, along_shift);
     vf along = mul(load(lens.slope + i), out), ga, gb;
     if (tangential) {
-      along = madd(p2, gx, madd(p1, gy, along));
+      along = madd(tx, gx, madd(ty, gy, along));
       ga = madd(along, X, madd(s, gx, mul(p2, out)));
       gb = madd(along, Y, madd(s, gy, mul(p1, out)));
     } else {
@@ -16272,45 +16295,17 @@ TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangentia
   }
 }
 
-// Columns (a, c) and (b, d) of a derivative of rays become those of image positions, at m0.
+// Columns (a, c) and (b, d) of a derivative of e become those of image positions, at m0.
 TEXTPLANE_SIMD_INLINE void lens_turn(const LensFrame& l, float* a, float* b, float* c, float* d) noexcept {
-  const float slope = l.slope[0], x = l.mx, y = l.my, r = l.aspect;
-  const float xx = l.sx + x * (slope * x + l.p2) + 2.0F * l.tx * x, xy = x * (slope * y + l.p1) + 2.0F * l.tx * y;
-  const float yx = r * y * (slope * x + l.p2) + 2.0F * l.ty * x,
-              yy = l.sy + r * y * (slope * y + l.p1) + 2.0F * l.ty * y;
+  const float x = l.x_shift, y = l.y_shift, r = l.aspect, slope = l.slope[0];
+  const float by_x = slope * x + l.p2, by_y = slope * y / r + l.p1;
+  const float xx = 1.0F + x * by_x + 2.0F * l.tx * x * l.x_scale, xy = x * by_y + 2.0F * l.tx * y * l.y_scale;
+  const float yx = r * y * by_x + 2.0F * l.ty * x * l.x_scale, yy = 1.0F + r * y * by_y + 2.0F * l.ty * y * l.y_scale;
   const float a0 = *a, b0 = *b, c0 = *c, d0 = *d;
   *a = xx * a0 + xy * c0;
   *b = xx * b0 + xy * d0;
   *c = yx * a0 + yy * c0;
   *d = yx * b0 + yy * d0;
-}
-
-// Points on each side of a box, corners included once: how finely its border is looked at.
-enum : int { kBorderSide = 4, kBorder = 4 * kBorderSide };
-
-// Bounds of image positions of a patch from those of its border, which bound them: the lens has an inverse where it
-// holds. What the border does between two points, a share of its second difference says.
-TEXTPLANE_SIMD_INLINE void bound_border(const float* x, const float* y, float* box) noexcept {
-  float bend = 0.0F;
-  for (int axis = 0; axis < 2; ++axis) {
-    const float* p = axis == 0 ? x : y;
-    float low = p[0], high = p[0];
-    for (int k = 0; k < kBorder; ++k) {
-      const float here = p[k];
-      low = here < low ? here : low;
-      high = here > high ? here : high;
-      if (k % kBorderSide == 0) continue;  // a corner
-      const float turn = p[k - 1] - 2.0F * here + p[k + 1 < kBorder ? k + 1 : 0], size = turn < 0 ? -turn : turn;
-      bend = size > bend ? size : bend;
-    }
-    box[axis] = low;
-    box[2 + axis] = high;
-  }
-  const float margin = 0.5F * bend;
-  box[0] -= margin;
-  box[1] -= margin;
-  box[2] += margin;
-  box[3] += margin;
 }
 }
 }
@@ -16334,91 +16329,107 @@ TEXTPLANE_SIMD_INLINE bool make_lens_frame(const simd::LensFit& fit, const doubl
   const double r0 = fit.r0, s = fit.c[0] + 2 * (p1 * y + p2 * x);
   const double px = fx * (s * x + r0 * p2) + camera[2], py = fy * (s * y + r0 * p1) + camera[3];
   if (!(px > -1e6 && px < 1e6 && py > -1e6 && py < 1e6 && r0 < 1e6)) return false;
+  if (!(s > 1e-3 && fx > 1e-20 && fy > 1e-20)) return false;
   l->ox = !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
   l->oy = !(py > 0) ? 0 : py < height - 1 ? static_cast<int>(py + 0.5) : height - 1;
-  l->mx = static_cast<float>(x);
-  l->my = static_cast<float>(y);
+  const double x_scale = 1 / (fx * s), y_scale = 1 / (fy * s), ax = px - l->ox, ay = py - l->oy;
+  l->camera[0] = fx * s;
+  l->camera[1] = fy * s;
+  l->camera[2] = px - l->camera[0] * x;
+  l->camera[3] = py - l->camera[1] * y;
+  l->x_scale = static_cast<float>(x_scale);
+  l->y_scale = static_cast<float>(y_scale);
+  l->x_shift = static_cast<float>(x - ax * x_scale);
+  l->y_shift = static_cast<float>(y - ay * y_scale);
   l->r0 = static_cast<float>(r0);
-  l->sx = static_cast<float>(fx * s);
-  l->sy = static_cast<float>(fy * s);
   l->aspect = static_cast<float>(fy / fx);
-  l->ax = static_cast<float>(px - l->ox);
-  l->ay = static_cast<float>(py - l->oy);
-  for (int k = 0; k < simd::kLensTerms; ++k) {
+  const bool all = fit.terms > 6 || (fit.terms > 3 && (p1 != 0 || p2 != 0));
+  l->terms = all ? static_cast<int>(simd::kLensTerms) : fit.terms;
+  for (int k = 0; k < l->terms; ++k) {
     l->c[k] = static_cast<float>(fx * fit.c[k + 1]);
-    l->slope[k] = static_cast<float>(2 * fx * (k + 1) * fit.c[k + 1]);
+    l->slope[k] = static_cast<float>(2 / s * (k + 1) * fit.c[k + 1]);
   }
-  l->p1 = static_cast<float>(2 * fx * p1);
-  l->p2 = static_cast<float>(2 * fx * p2);
+  l->p1 = static_cast<float>(2 * fx * p1 * y_scale);
+  l->p2 = static_cast<float>(2 * fx * p2 * x_scale);
+  l->p0 = static_cast<float>(-2 * fx * (p1 * ay * y_scale + p2 * ax * x_scale));
   l->tx = static_cast<float>(fx * p2);
   l->ty = static_cast<float>(fy * p1);
   l->t_low = static_cast<float>(fit.low - r0);
   l->t_high = static_cast<float>(fit.high - r0);
   l->tangential = p1 != 0 || p2 != 0;
-  l->terms = !l->tangential || fit.terms <= 3 ? fit.terms : static_cast<int>(simd::kLensTerms);
   l->on = true;
   return true;
 }
+TEXTPLANE_SIMD_INLINE void move_lens_origin(int dx, int dy, LensFrame* l) noexcept {
+  const float x = static_cast<float>(dx), y = static_cast<float>(dy);
+  l->x_shift += x * l->x_scale;
+  l->y_shift += y * l->y_scale;
+  l->p0 += l->p2 * x + l->p1 * y;
+}
 struct LensVectors {
-  vf mx, my, r0, sx, sy, aspect, ax, ay, p1, p2, tx, ty;
+  vf x_scale, x_shift, y_scale, y_shift, r0, aspect, p1, p2, p0, tx, ty;
 };
 TEXTPLANE_SIMD_INLINE LensVectors broadcast_lens(const LensFrame& l) noexcept {
-  return LensVectors{set1(l.mx), set1(l.my), set1(-l.r0), set1(l.sx), set1(l.sy), set1(l.aspect),
-                     set1(l.ax), set1(l.ay), set1(l.p1),  set1(l.p2), set1(l.tx), set1(l.ty)};
+  return LensVectors{set1(l.x_scale), set1(l.x_shift), set1(l.y_scale), set1(l.y_shift), set1(-l.r0), set1(l.aspect),
+                     set1(l.p1),      set1(l.p2),      set1(l.p0),      set1(l.tx),      set1(l.ty)};
 }
 enum LensKind : int { kLensShort, kLensTangential, kLensMiddle, kLensLong };
 TEXTPLANE_SIMD_INLINE int lens_kind(const LensFrame& l) noexcept {
   return l.terms > 6 ? kLensLong : l.terms > 3 ? kLensMiddle : l.tangential ? kLensTangential : kLensShort;
 }
-TEXTPLANE_SIMD_INLINE void lens_vector(const LensFrame& l, const LensVectors& v, int kind, bool slopes, vf dx, vf dy,
+TEXTPLANE_SIMD_INLINE void lens_vector(const LensFrame& l, const LensVectors& v, int kind, bool slopes, vf ex, vf ey,
                                        vf* out_x, vf* out_y, vf* out_t, vf* s, vf* slope) noexcept {
   const int terms = kind == kLensLong ? static_cast<int>(simd::kLensTerms) : kind == kLensMiddle ? 6 : 3;
   const bool tangential = kind == kLensLong || kind == kLensTangential;
-  const vf x = add(dx, v.mx), y = add(dy, v.my), t = madd(x, x, madd(y, y, v.r0));
+  const vf x = madd(v.x_scale, ex, v.x_shift), y = madd(v.y_scale, ey, v.y_shift);
+  const vf t = madd(x, x, madd(y, y, v.r0));
   vf change = set1(l.c[terms - 1]);
   TEXTPLANE_SIMD_UNROLL
   for (int k = terms - 2; k >= 0; --k) change = madd(change, t, set1(l.c[k]));
-  change = mul(change, t);
-  if (tangential) change = madd(v.p1, dy, madd(v.p2, dx, change));
-  vf at_x = madd(v.sx, dx, v.ax), at_y = madd(v.sy, dy, v.ay);
-  if (tangential) {
-    at_x = madd(v.tx, t, at_x);
-    at_y = madd(v.ty, t, at_y);
-  }
-  *out_x = madd(change, x, at_x);
-  *out_y = madd(mul(change, v.aspect), y, at_y);
+  change = tangential ? madd(change, t, madd(v.p1, ey, madd(v.p2, ex, v.p0))) : mul(change, t);
+  *out_x = madd(change, x, tangential ? madd(v.tx, t, ex) : ex);
+  *out_y = madd(mul(change, v.aspect), y, tangential ? madd(v.ty, t, ey) : ey);
   *out_t = t;
   if (!slopes) return;
   vf derivative = set1(l.slope[terms - 1]);
   TEXTPLANE_SIMD_UNROLL
   for (int k = terms - 2; k >= 0; --k) derivative = madd(derivative, t, set1(l.slope[k]));
-  *s = add(v.sx, change);
+  *s = madd(change, v.x_scale, set1(1.0F));
   *slope = derivative;
 }
-TEXTPLANE_SIMD_ENTRY void lens_or_outside(const LensFrame& l, vf dx, vf dy, vf* out_x, vf* out_y) noexcept {
+TEXTPLANE_SIMD_ENTRY void lens_or_outside(const LensFrame& l, vf ex, vf ey, vf* out_x, vf* out_y) noexcept {
   const LensVectors v = broadcast_lens(l);
   vf x, y, t, unused_s, unused_slope;
   switch (lens_kind(l)) {
-    case kLensShort: lens_vector(l, v, kLensShort, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope); break;
+    case kLensShort: lens_vector(l, v, kLensShort, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope); break;
     case kLensTangential:
-      lens_vector(l, v, kLensTangential, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope);
+      lens_vector(l, v, kLensTangential, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope);
       break;
-    case kLensMiddle: lens_vector(l, v, kLensMiddle, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope); break;
-    default: lens_vector(l, v, kLensLong, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope);
+    case kLensMiddle: lens_vector(l, v, kLensMiddle, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope); break;
+    default: lens_vector(l, v, kLensLong, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope);
   }
   const vm held = and_(ge(t, set1(l.t_low)), le(t, set1(l.t_high)));
   *out_x = select(held, x, set1(-1e9F));
   *out_y = select(held, y, set1(-1e9F));
 }
-TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f, const LensFrame& l, int kind,
-                                     bool slopes, const ImageTiles& tiles, int held,
-                                     const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
-                                     int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
-                                     SampleStrip* TEXTPLANE_SIMD_RESTRICT strip,
-                                     LensStrip* TEXTPLANE_SIMD_RESTRICT lens) noexcept {
+TEXTPLANE_SIMD_INLINE void warp_before_lens(const simd::Warp8& w, const float* TEXTPLANE_SIMD_RESTRICT px,
+                                            const float* TEXTPLANE_SIMD_RESTRICT py, int n,
+                                            float* TEXTPLANE_SIMD_RESTRICT x,
+                                            float* TEXTPLANE_SIMD_RESTRICT y) noexcept {
   const WarpVectors warp = broadcast_warp(w);
+  for (int i = 0; i < n; i += kLanes) {
+    vf ex, ey, divisor;
+    warp_vector(warp, load_part(px + i, n - i), load_part(py + i, n - i), &ex, &ey, &divisor);
+    store(x + i, ex);
+    store(y + i, ey);
+  }
+}
+TEXTPLANE_SIMD_INLINE void lens_loop(const SampleFrame& f, const LensFrame& l, int kind, bool slopes,
+                                     const ImageTiles& tiles, int held, int n, const float* TEXTPLANE_SIMD_RESTRICT x,
+                                     const float* TEXTPLANE_SIMD_RESTRICT y, SampleStrip* TEXTPLANE_SIMD_RESTRICT strip,
+                                     LensStrip* TEXTPLANE_SIMD_RESTRICT lens) noexcept {
   const LensVectors v = broadcast_lens(l);
-  vf dx, dy, divisor, at_x, at_y, unused_t, s, slope;
+  vf at_x, at_y, unused_t, s, slope;
   if (kInt16Tiles != 0 && held > 0) {
     const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(tiles.x_high));
     const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(tiles.y_high));
@@ -16427,10 +16438,7 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
       TEXTPLANE_SIMD_UNROLL
       for (int k = 0; k < 2; ++k) {
         const int j = i + k * kLanes;
-        warp_vector(warp, load(px + j), load(py + j), &dx, &dy, &divisor);
-        lens_vector(l, v, kind, slopes, dx, dy, &at_x, &at_y, &unused_t, &s, &slope);
-        store(x + j, dx);
-        store(y + j, dy);
+        lens_vector(l, v, kind, slopes, load(x + j), load(y + j), &at_x, &at_y, &unused_t, &s, &slope);
         if (slopes) {
           store(lens->s + j, s);
           store(lens->slope + j, slope);
@@ -16444,10 +16452,7 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
   }
   const CellVectors cells = broadcast_cells(f);
   for (int i = held; i < n; i += kLanes) {
-    warp_vector(warp, load_part(px + i, n - i), load_part(py + i, n - i), &dx, &dy, &divisor);
-    lens_vector(l, v, kind, slopes, dx, dy, &at_x, &at_y, &unused_t, &s, &slope);
-    store(x + i, dx);
-    store(y + i, dy);
+    lens_vector(l, v, kind, slopes, load(x + i), load(y + i), &at_x, &at_y, &unused_t, &s, &slope);
     if (slopes) {
       store(lens->s + i, s);
       store(lens->slope + i, slope);
@@ -16458,11 +16463,12 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
 TEXTPLANE_SIMD_INLINE void lens_strip(const simd::Warp8& w, const SampleFrame& f, const LensFrame& l, bool slopes,
                                       const ImageTiles& tiles, int held, const float* px, const float* py, int n,
                                       float* x, float* y, SampleStrip* strip, LensStrip* lens) noexcept {
+  warp_before_lens(w, px, py, n, x, y);
   switch (lens_kind(l)) {
-    case kLensShort: return lens_loop(w, f, l, kLensShort, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    case kLensTangential: return lens_loop(w, f, l, kLensTangential, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    case kLensMiddle: return lens_loop(w, f, l, kLensMiddle, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    default: return lens_loop(w, f, l, kLensLong, slopes, tiles, held, px, py, n, x, y, strip, lens);
+    case kLensShort: return lens_loop(f, l, kLensShort, slopes, tiles, held, n, x, y, strip, lens);
+    case kLensTangential: return lens_loop(f, l, kLensTangential, slopes, tiles, held, n, x, y, strip, lens);
+    case kLensMiddle: return lens_loop(f, l, kLensMiddle, slopes, tiles, held, n, x, y, strip, lens);
+    default: return lens_loop(f, l, kLensLong, slopes, tiles, held, n, x, y, strip, lens);
   }
 }
 TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangential, bool paired,
@@ -16471,16 +16477,19 @@ TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangentia
                                               const float* TEXTPLANE_SIMD_RESTRICT y, int n,
                                               float* TEXTPLANE_SIMD_RESTRICT value, float* TEXTPLANE_SIMD_RESTRICT a,
                                               float* TEXTPLANE_SIMD_RESTRICT b) noexcept {
-  const vf mx = set1(l.mx), my = set1(l.my), aspect = set1(l.aspect), p1 = set1(l.p1), p2 = set1(l.p2);
+  const float wide = 1.0F / l.aspect;
+  const vf x_scale = set1(l.x_scale), x_shift = set1(l.x_shift), out_scale = set1(l.y_scale * l.aspect),
+           out_shift = set1(l.y_shift * l.aspect), along_scale = set1(l.y_scale * wide),
+           along_shift = set1(l.y_shift * wide), p1 = set1(l.p1), p2 = set1(l.p2), tx = set1(2.0F * l.x_scale * l.tx),
+           ty = set1(2.0F * l.x_scale * l.ty);
   for (int i = 0; i < n; i += kLanes) {
     vf here, gx, gy;
     interpolate_vector(strip, i, paired, &here, &gx, &gy);
-    const vf X = add(load(x + i), mx), Y = add(load(y + i), my), s = load(lens.s + i);
-    gy = mul(gy, aspect);
-    const vf out = madd(gx, X, mul(gy, Y));
+    const vf ey = load(y + i), X = madd(x_scale, load(x + i), x_shift), s = load(lens.s + i);
+    const vf out = madd(gx, X, mul(gy, madd(out_scale, ey, out_shift))), Y = madd(along_scale, ey, along_shift);
     vf along = mul(load(lens.slope + i), out), ga, gb;
     if (tangential) {
-      along = madd(p2, gx, madd(p1, gy, along));
+      along = madd(tx, gx, madd(ty, gy, along));
       ga = madd(along, X, madd(s, gx, mul(p2, out)));
       gb = madd(along, Y, madd(s, gy, mul(p1, out)));
     } else {
@@ -16493,38 +16502,15 @@ TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangentia
   }
 }
 TEXTPLANE_SIMD_INLINE void lens_turn(const LensFrame& l, float* a, float* b, float* c, float* d) noexcept {
-  const float slope = l.slope[0], x = l.mx, y = l.my, r = l.aspect;
-  const float xx = l.sx + x * (slope * x + l.p2) + 2.0F * l.tx * x, xy = x * (slope * y + l.p1) + 2.0F * l.tx * y;
-  const float yx = r * y * (slope * x + l.p2) + 2.0F * l.ty * x,
-              yy = l.sy + r * y * (slope * y + l.p1) + 2.0F * l.ty * y;
+  const float x = l.x_shift, y = l.y_shift, r = l.aspect, slope = l.slope[0];
+  const float by_x = slope * x + l.p2, by_y = slope * y / r + l.p1;
+  const float xx = 1.0F + x * by_x + 2.0F * l.tx * x * l.x_scale, xy = x * by_y + 2.0F * l.tx * y * l.y_scale;
+  const float yx = r * y * by_x + 2.0F * l.ty * x * l.x_scale, yy = 1.0F + r * y * by_y + 2.0F * l.ty * y * l.y_scale;
   const float a0 = *a, b0 = *b, c0 = *c, d0 = *d;
   *a = xx * a0 + xy * c0;
   *b = xx * b0 + xy * d0;
   *c = yx * a0 + yy * c0;
   *d = yx * b0 + yy * d0;
-}
-enum : int { kBorderSide = 4, kBorder = 4 * kBorderSide };
-TEXTPLANE_SIMD_INLINE void bound_border(const float* x, const float* y, float* box) noexcept {
-  float bend = 0.0F;
-  for (int axis = 0; axis < 2; ++axis) {
-    const float* p = axis == 0 ? x : y;
-    float low = p[0], high = p[0];
-    for (int k = 0; k < kBorder; ++k) {
-      const float here = p[k];
-      low = here < low ? here : low;
-      high = here > high ? here : high;
-      if (k % kBorderSide == 0) continue;
-      const float turn = p[k - 1] - 2.0F * here + p[k + 1 < kBorder ? k + 1 : 0], size = turn < 0 ? -turn : turn;
-      bend = size > bend ? size : bend;
-    }
-    box[axis] = low;
-    box[2 + axis] = high;
-  }
-  const float margin = 0.5F * bend;
-  box[0] -= margin;
-  box[1] -= margin;
-  box[2] += margin;
-  box[3] += margin;
 }
 }
 }
@@ -16548,91 +16534,107 @@ TEXTPLANE_SIMD_INLINE bool make_lens_frame(const simd::LensFit& fit, const doubl
   const double r0 = fit.r0, s = fit.c[0] + 2 * (p1 * y + p2 * x);
   const double px = fx * (s * x + r0 * p2) + camera[2], py = fy * (s * y + r0 * p1) + camera[3];
   if (!(px > -1e6 && px < 1e6 && py > -1e6 && py < 1e6 && r0 < 1e6)) return false;
+  if (!(s > 1e-3 && fx > 1e-20 && fy > 1e-20)) return false;
   l->ox = !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
   l->oy = !(py > 0) ? 0 : py < height - 1 ? static_cast<int>(py + 0.5) : height - 1;
-  l->mx = static_cast<float>(x);
-  l->my = static_cast<float>(y);
+  const double x_scale = 1 / (fx * s), y_scale = 1 / (fy * s), ax = px - l->ox, ay = py - l->oy;
+  l->camera[0] = fx * s;
+  l->camera[1] = fy * s;
+  l->camera[2] = px - l->camera[0] * x;
+  l->camera[3] = py - l->camera[1] * y;
+  l->x_scale = static_cast<float>(x_scale);
+  l->y_scale = static_cast<float>(y_scale);
+  l->x_shift = static_cast<float>(x - ax * x_scale);
+  l->y_shift = static_cast<float>(y - ay * y_scale);
   l->r0 = static_cast<float>(r0);
-  l->sx = static_cast<float>(fx * s);
-  l->sy = static_cast<float>(fy * s);
   l->aspect = static_cast<float>(fy / fx);
-  l->ax = static_cast<float>(px - l->ox);
-  l->ay = static_cast<float>(py - l->oy);
-  for (int k = 0; k < simd::kLensTerms; ++k) {
+  const bool all = fit.terms > 6 || (fit.terms > 3 && (p1 != 0 || p2 != 0));
+  l->terms = all ? static_cast<int>(simd::kLensTerms) : fit.terms;
+  for (int k = 0; k < l->terms; ++k) {
     l->c[k] = static_cast<float>(fx * fit.c[k + 1]);
-    l->slope[k] = static_cast<float>(2 * fx * (k + 1) * fit.c[k + 1]);
+    l->slope[k] = static_cast<float>(2 / s * (k + 1) * fit.c[k + 1]);
   }
-  l->p1 = static_cast<float>(2 * fx * p1);
-  l->p2 = static_cast<float>(2 * fx * p2);
+  l->p1 = static_cast<float>(2 * fx * p1 * y_scale);
+  l->p2 = static_cast<float>(2 * fx * p2 * x_scale);
+  l->p0 = static_cast<float>(-2 * fx * (p1 * ay * y_scale + p2 * ax * x_scale));
   l->tx = static_cast<float>(fx * p2);
   l->ty = static_cast<float>(fy * p1);
   l->t_low = static_cast<float>(fit.low - r0);
   l->t_high = static_cast<float>(fit.high - r0);
   l->tangential = p1 != 0 || p2 != 0;
-  l->terms = !l->tangential || fit.terms <= 3 ? fit.terms : static_cast<int>(simd::kLensTerms);
   l->on = true;
   return true;
 }
+TEXTPLANE_SIMD_INLINE void move_lens_origin(int dx, int dy, LensFrame* l) noexcept {
+  const float x = static_cast<float>(dx), y = static_cast<float>(dy);
+  l->x_shift += x * l->x_scale;
+  l->y_shift += y * l->y_scale;
+  l->p0 += l->p2 * x + l->p1 * y;
+}
 struct LensVectors {
-  vf mx, my, r0, sx, sy, aspect, ax, ay, p1, p2, tx, ty;
+  vf x_scale, x_shift, y_scale, y_shift, r0, aspect, p1, p2, p0, tx, ty;
 };
 TEXTPLANE_SIMD_INLINE LensVectors broadcast_lens(const LensFrame& l) noexcept {
-  return LensVectors{set1(l.mx), set1(l.my), set1(-l.r0), set1(l.sx), set1(l.sy), set1(l.aspect),
-                     set1(l.ax), set1(l.ay), set1(l.p1),  set1(l.p2), set1(l.tx), set1(l.ty)};
+  return LensVectors{set1(l.x_scale), set1(l.x_shift), set1(l.y_scale), set1(l.y_shift), set1(-l.r0), set1(l.aspect),
+                     set1(l.p1),      set1(l.p2),      set1(l.p0),      set1(l.tx),      set1(l.ty)};
 }
 enum LensKind : int { kLensShort, kLensTangential, kLensMiddle, kLensLong };
 TEXTPLANE_SIMD_INLINE int lens_kind(const LensFrame& l) noexcept {
   return l.terms > 6 ? kLensLong : l.terms > 3 ? kLensMiddle : l.tangential ? kLensTangential : kLensShort;
 }
-TEXTPLANE_SIMD_INLINE void lens_vector(const LensFrame& l, const LensVectors& v, int kind, bool slopes, vf dx, vf dy,
+TEXTPLANE_SIMD_INLINE void lens_vector(const LensFrame& l, const LensVectors& v, int kind, bool slopes, vf ex, vf ey,
                                        vf* out_x, vf* out_y, vf* out_t, vf* s, vf* slope) noexcept {
   const int terms = kind == kLensLong ? static_cast<int>(simd::kLensTerms) : kind == kLensMiddle ? 6 : 3;
   const bool tangential = kind == kLensLong || kind == kLensTangential;
-  const vf x = add(dx, v.mx), y = add(dy, v.my), t = madd(x, x, madd(y, y, v.r0));
+  const vf x = madd(v.x_scale, ex, v.x_shift), y = madd(v.y_scale, ey, v.y_shift);
+  const vf t = madd(x, x, madd(y, y, v.r0));
   vf change = set1(l.c[terms - 1]);
   TEXTPLANE_SIMD_UNROLL
   for (int k = terms - 2; k >= 0; --k) change = madd(change, t, set1(l.c[k]));
-  change = mul(change, t);
-  if (tangential) change = madd(v.p1, dy, madd(v.p2, dx, change));
-  vf at_x = madd(v.sx, dx, v.ax), at_y = madd(v.sy, dy, v.ay);
-  if (tangential) {
-    at_x = madd(v.tx, t, at_x);
-    at_y = madd(v.ty, t, at_y);
-  }
-  *out_x = madd(change, x, at_x);
-  *out_y = madd(mul(change, v.aspect), y, at_y);
+  change = tangential ? madd(change, t, madd(v.p1, ey, madd(v.p2, ex, v.p0))) : mul(change, t);
+  *out_x = madd(change, x, tangential ? madd(v.tx, t, ex) : ex);
+  *out_y = madd(mul(change, v.aspect), y, tangential ? madd(v.ty, t, ey) : ey);
   *out_t = t;
   if (!slopes) return;
   vf derivative = set1(l.slope[terms - 1]);
   TEXTPLANE_SIMD_UNROLL
   for (int k = terms - 2; k >= 0; --k) derivative = madd(derivative, t, set1(l.slope[k]));
-  *s = add(v.sx, change);
+  *s = madd(change, v.x_scale, set1(1.0F));
   *slope = derivative;
 }
-TEXTPLANE_SIMD_ENTRY void lens_or_outside(const LensFrame& l, vf dx, vf dy, vf* out_x, vf* out_y) noexcept {
+TEXTPLANE_SIMD_ENTRY void lens_or_outside(const LensFrame& l, vf ex, vf ey, vf* out_x, vf* out_y) noexcept {
   const LensVectors v = broadcast_lens(l);
   vf x, y, t, unused_s, unused_slope;
   switch (lens_kind(l)) {
-    case kLensShort: lens_vector(l, v, kLensShort, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope); break;
+    case kLensShort: lens_vector(l, v, kLensShort, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope); break;
     case kLensTangential:
-      lens_vector(l, v, kLensTangential, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope);
+      lens_vector(l, v, kLensTangential, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope);
       break;
-    case kLensMiddle: lens_vector(l, v, kLensMiddle, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope); break;
-    default: lens_vector(l, v, kLensLong, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope);
+    case kLensMiddle: lens_vector(l, v, kLensMiddle, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope); break;
+    default: lens_vector(l, v, kLensLong, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope);
   }
   const vm held = and_(ge(t, set1(l.t_low)), le(t, set1(l.t_high)));
   *out_x = select(held, x, set1(-1e9F));
   *out_y = select(held, y, set1(-1e9F));
 }
-TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f, const LensFrame& l, int kind,
-                                     bool slopes, const ImageTiles& tiles, int held,
-                                     const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
-                                     int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
-                                     SampleStrip* TEXTPLANE_SIMD_RESTRICT strip,
-                                     LensStrip* TEXTPLANE_SIMD_RESTRICT lens) noexcept {
+TEXTPLANE_SIMD_INLINE void warp_before_lens(const simd::Warp8& w, const float* TEXTPLANE_SIMD_RESTRICT px,
+                                            const float* TEXTPLANE_SIMD_RESTRICT py, int n,
+                                            float* TEXTPLANE_SIMD_RESTRICT x,
+                                            float* TEXTPLANE_SIMD_RESTRICT y) noexcept {
   const WarpVectors warp = broadcast_warp(w);
+  for (int i = 0; i < n; i += kLanes) {
+    vf ex, ey, divisor;
+    warp_vector(warp, load_part(px + i, n - i), load_part(py + i, n - i), &ex, &ey, &divisor);
+    store(x + i, ex);
+    store(y + i, ey);
+  }
+}
+TEXTPLANE_SIMD_INLINE void lens_loop(const SampleFrame& f, const LensFrame& l, int kind, bool slopes,
+                                     const ImageTiles& tiles, int held, int n, const float* TEXTPLANE_SIMD_RESTRICT x,
+                                     const float* TEXTPLANE_SIMD_RESTRICT y, SampleStrip* TEXTPLANE_SIMD_RESTRICT strip,
+                                     LensStrip* TEXTPLANE_SIMD_RESTRICT lens) noexcept {
   const LensVectors v = broadcast_lens(l);
-  vf dx, dy, divisor, at_x, at_y, unused_t, s, slope;
+  vf at_x, at_y, unused_t, s, slope;
   if (kInt16Tiles != 0 && held > 0) {
     const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(tiles.x_high));
     const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(tiles.y_high));
@@ -16641,10 +16643,7 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
       TEXTPLANE_SIMD_UNROLL
       for (int k = 0; k < 2; ++k) {
         const int j = i + k * kLanes;
-        warp_vector(warp, load(px + j), load(py + j), &dx, &dy, &divisor);
-        lens_vector(l, v, kind, slopes, dx, dy, &at_x, &at_y, &unused_t, &s, &slope);
-        store(x + j, dx);
-        store(y + j, dy);
+        lens_vector(l, v, kind, slopes, load(x + j), load(y + j), &at_x, &at_y, &unused_t, &s, &slope);
         if (slopes) {
           store(lens->s + j, s);
           store(lens->slope + j, slope);
@@ -16658,10 +16657,7 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
   }
   const CellVectors cells = broadcast_cells(f);
   for (int i = held; i < n; i += kLanes) {
-    warp_vector(warp, load_part(px + i, n - i), load_part(py + i, n - i), &dx, &dy, &divisor);
-    lens_vector(l, v, kind, slopes, dx, dy, &at_x, &at_y, &unused_t, &s, &slope);
-    store(x + i, dx);
-    store(y + i, dy);
+    lens_vector(l, v, kind, slopes, load(x + i), load(y + i), &at_x, &at_y, &unused_t, &s, &slope);
     if (slopes) {
       store(lens->s + i, s);
       store(lens->slope + i, slope);
@@ -16672,11 +16668,12 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
 TEXTPLANE_SIMD_INLINE void lens_strip(const simd::Warp8& w, const SampleFrame& f, const LensFrame& l, bool slopes,
                                       const ImageTiles& tiles, int held, const float* px, const float* py, int n,
                                       float* x, float* y, SampleStrip* strip, LensStrip* lens) noexcept {
+  warp_before_lens(w, px, py, n, x, y);
   switch (lens_kind(l)) {
-    case kLensShort: return lens_loop(w, f, l, kLensShort, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    case kLensTangential: return lens_loop(w, f, l, kLensTangential, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    case kLensMiddle: return lens_loop(w, f, l, kLensMiddle, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    default: return lens_loop(w, f, l, kLensLong, slopes, tiles, held, px, py, n, x, y, strip, lens);
+    case kLensShort: return lens_loop(f, l, kLensShort, slopes, tiles, held, n, x, y, strip, lens);
+    case kLensTangential: return lens_loop(f, l, kLensTangential, slopes, tiles, held, n, x, y, strip, lens);
+    case kLensMiddle: return lens_loop(f, l, kLensMiddle, slopes, tiles, held, n, x, y, strip, lens);
+    default: return lens_loop(f, l, kLensLong, slopes, tiles, held, n, x, y, strip, lens);
   }
 }
 TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangential, bool paired,
@@ -16685,16 +16682,19 @@ TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangentia
                                               const float* TEXTPLANE_SIMD_RESTRICT y, int n,
                                               float* TEXTPLANE_SIMD_RESTRICT value, float* TEXTPLANE_SIMD_RESTRICT a,
                                               float* TEXTPLANE_SIMD_RESTRICT b) noexcept {
-  const vf mx = set1(l.mx), my = set1(l.my), aspect = set1(l.aspect), p1 = set1(l.p1), p2 = set1(l.p2);
+  const float wide = 1.0F / l.aspect;
+  const vf x_scale = set1(l.x_scale), x_shift = set1(l.x_shift), out_scale = set1(l.y_scale * l.aspect),
+           out_shift = set1(l.y_shift * l.aspect), along_scale = set1(l.y_scale * wide),
+           along_shift = set1(l.y_shift * wide), p1 = set1(l.p1), p2 = set1(l.p2), tx = set1(2.0F * l.x_scale * l.tx),
+           ty = set1(2.0F * l.x_scale * l.ty);
   for (int i = 0; i < n; i += kLanes) {
     vf here, gx, gy;
     interpolate_vector(strip, i, paired, &here, &gx, &gy);
-    const vf X = add(load(x + i), mx), Y = add(load(y + i), my), s = load(lens.s + i);
-    gy = mul(gy, aspect);
-    const vf out = madd(gx, X, mul(gy, Y));
+    const vf ey = load(y + i), X = madd(x_scale, load(x + i), x_shift), s = load(lens.s + i);
+    const vf out = madd(gx, X, mul(gy, madd(out_scale, ey, out_shift))), Y = madd(along_scale, ey, along_shift);
     vf along = mul(load(lens.slope + i), out), ga, gb;
     if (tangential) {
-      along = madd(p2, gx, madd(p1, gy, along));
+      along = madd(tx, gx, madd(ty, gy, along));
       ga = madd(along, X, madd(s, gx, mul(p2, out)));
       gb = madd(along, Y, madd(s, gy, mul(p1, out)));
     } else {
@@ -16707,38 +16707,15 @@ TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangentia
   }
 }
 TEXTPLANE_SIMD_INLINE void lens_turn(const LensFrame& l, float* a, float* b, float* c, float* d) noexcept {
-  const float slope = l.slope[0], x = l.mx, y = l.my, r = l.aspect;
-  const float xx = l.sx + x * (slope * x + l.p2) + 2.0F * l.tx * x, xy = x * (slope * y + l.p1) + 2.0F * l.tx * y;
-  const float yx = r * y * (slope * x + l.p2) + 2.0F * l.ty * x,
-              yy = l.sy + r * y * (slope * y + l.p1) + 2.0F * l.ty * y;
+  const float x = l.x_shift, y = l.y_shift, r = l.aspect, slope = l.slope[0];
+  const float by_x = slope * x + l.p2, by_y = slope * y / r + l.p1;
+  const float xx = 1.0F + x * by_x + 2.0F * l.tx * x * l.x_scale, xy = x * by_y + 2.0F * l.tx * y * l.y_scale;
+  const float yx = r * y * by_x + 2.0F * l.ty * x * l.x_scale, yy = 1.0F + r * y * by_y + 2.0F * l.ty * y * l.y_scale;
   const float a0 = *a, b0 = *b, c0 = *c, d0 = *d;
   *a = xx * a0 + xy * c0;
   *b = xx * b0 + xy * d0;
   *c = yx * a0 + yy * c0;
   *d = yx * b0 + yy * d0;
-}
-enum : int { kBorderSide = 4, kBorder = 4 * kBorderSide };
-TEXTPLANE_SIMD_INLINE void bound_border(const float* x, const float* y, float* box) noexcept {
-  float bend = 0.0F;
-  for (int axis = 0; axis < 2; ++axis) {
-    const float* p = axis == 0 ? x : y;
-    float low = p[0], high = p[0];
-    for (int k = 0; k < kBorder; ++k) {
-      const float here = p[k];
-      low = here < low ? here : low;
-      high = here > high ? here : high;
-      if (k % kBorderSide == 0) continue;
-      const float turn = p[k - 1] - 2.0F * here + p[k + 1 < kBorder ? k + 1 : 0], size = turn < 0 ? -turn : turn;
-      bend = size > bend ? size : bend;
-    }
-    box[axis] = low;
-    box[2 + axis] = high;
-  }
-  const float margin = 0.5F * bend;
-  box[0] -= margin;
-  box[1] -= margin;
-  box[2] += margin;
-  box[3] += margin;
 }
 }
 }
@@ -16762,91 +16739,107 @@ TEXTPLANE_SIMD_INLINE bool make_lens_frame(const simd::LensFit& fit, const doubl
   const double r0 = fit.r0, s = fit.c[0] + 2 * (p1 * y + p2 * x);
   const double px = fx * (s * x + r0 * p2) + camera[2], py = fy * (s * y + r0 * p1) + camera[3];
   if (!(px > -1e6 && px < 1e6 && py > -1e6 && py < 1e6 && r0 < 1e6)) return false;
+  if (!(s > 1e-3 && fx > 1e-20 && fy > 1e-20)) return false;
   l->ox = !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
   l->oy = !(py > 0) ? 0 : py < height - 1 ? static_cast<int>(py + 0.5) : height - 1;
-  l->mx = static_cast<float>(x);
-  l->my = static_cast<float>(y);
+  const double x_scale = 1 / (fx * s), y_scale = 1 / (fy * s), ax = px - l->ox, ay = py - l->oy;
+  l->camera[0] = fx * s;
+  l->camera[1] = fy * s;
+  l->camera[2] = px - l->camera[0] * x;
+  l->camera[3] = py - l->camera[1] * y;
+  l->x_scale = static_cast<float>(x_scale);
+  l->y_scale = static_cast<float>(y_scale);
+  l->x_shift = static_cast<float>(x - ax * x_scale);
+  l->y_shift = static_cast<float>(y - ay * y_scale);
   l->r0 = static_cast<float>(r0);
-  l->sx = static_cast<float>(fx * s);
-  l->sy = static_cast<float>(fy * s);
   l->aspect = static_cast<float>(fy / fx);
-  l->ax = static_cast<float>(px - l->ox);
-  l->ay = static_cast<float>(py - l->oy);
-  for (int k = 0; k < simd::kLensTerms; ++k) {
+  const bool all = fit.terms > 6 || (fit.terms > 3 && (p1 != 0 || p2 != 0));
+  l->terms = all ? static_cast<int>(simd::kLensTerms) : fit.terms;
+  for (int k = 0; k < l->terms; ++k) {
     l->c[k] = static_cast<float>(fx * fit.c[k + 1]);
-    l->slope[k] = static_cast<float>(2 * fx * (k + 1) * fit.c[k + 1]);
+    l->slope[k] = static_cast<float>(2 / s * (k + 1) * fit.c[k + 1]);
   }
-  l->p1 = static_cast<float>(2 * fx * p1);
-  l->p2 = static_cast<float>(2 * fx * p2);
+  l->p1 = static_cast<float>(2 * fx * p1 * y_scale);
+  l->p2 = static_cast<float>(2 * fx * p2 * x_scale);
+  l->p0 = static_cast<float>(-2 * fx * (p1 * ay * y_scale + p2 * ax * x_scale));
   l->tx = static_cast<float>(fx * p2);
   l->ty = static_cast<float>(fy * p1);
   l->t_low = static_cast<float>(fit.low - r0);
   l->t_high = static_cast<float>(fit.high - r0);
   l->tangential = p1 != 0 || p2 != 0;
-  l->terms = !l->tangential || fit.terms <= 3 ? fit.terms : static_cast<int>(simd::kLensTerms);
   l->on = true;
   return true;
 }
+TEXTPLANE_SIMD_INLINE void move_lens_origin(int dx, int dy, LensFrame* l) noexcept {
+  const float x = static_cast<float>(dx), y = static_cast<float>(dy);
+  l->x_shift += x * l->x_scale;
+  l->y_shift += y * l->y_scale;
+  l->p0 += l->p2 * x + l->p1 * y;
+}
 struct LensVectors {
-  vf mx, my, r0, sx, sy, aspect, ax, ay, p1, p2, tx, ty;
+  vf x_scale, x_shift, y_scale, y_shift, r0, aspect, p1, p2, p0, tx, ty;
 };
 TEXTPLANE_SIMD_INLINE LensVectors broadcast_lens(const LensFrame& l) noexcept {
-  return LensVectors{set1(l.mx), set1(l.my), set1(-l.r0), set1(l.sx), set1(l.sy), set1(l.aspect),
-                     set1(l.ax), set1(l.ay), set1(l.p1),  set1(l.p2), set1(l.tx), set1(l.ty)};
+  return LensVectors{set1(l.x_scale), set1(l.x_shift), set1(l.y_scale), set1(l.y_shift), set1(-l.r0), set1(l.aspect),
+                     set1(l.p1),      set1(l.p2),      set1(l.p0),      set1(l.tx),      set1(l.ty)};
 }
 enum LensKind : int { kLensShort, kLensTangential, kLensMiddle, kLensLong };
 TEXTPLANE_SIMD_INLINE int lens_kind(const LensFrame& l) noexcept {
   return l.terms > 6 ? kLensLong : l.terms > 3 ? kLensMiddle : l.tangential ? kLensTangential : kLensShort;
 }
-TEXTPLANE_SIMD_INLINE void lens_vector(const LensFrame& l, const LensVectors& v, int kind, bool slopes, vf dx, vf dy,
+TEXTPLANE_SIMD_INLINE void lens_vector(const LensFrame& l, const LensVectors& v, int kind, bool slopes, vf ex, vf ey,
                                        vf* out_x, vf* out_y, vf* out_t, vf* s, vf* slope) noexcept {
   const int terms = kind == kLensLong ? static_cast<int>(simd::kLensTerms) : kind == kLensMiddle ? 6 : 3;
   const bool tangential = kind == kLensLong || kind == kLensTangential;
-  const vf x = add(dx, v.mx), y = add(dy, v.my), t = madd(x, x, madd(y, y, v.r0));
+  const vf x = madd(v.x_scale, ex, v.x_shift), y = madd(v.y_scale, ey, v.y_shift);
+  const vf t = madd(x, x, madd(y, y, v.r0));
   vf change = set1(l.c[terms - 1]);
   TEXTPLANE_SIMD_UNROLL
   for (int k = terms - 2; k >= 0; --k) change = madd(change, t, set1(l.c[k]));
-  change = mul(change, t);
-  if (tangential) change = madd(v.p1, dy, madd(v.p2, dx, change));
-  vf at_x = madd(v.sx, dx, v.ax), at_y = madd(v.sy, dy, v.ay);
-  if (tangential) {
-    at_x = madd(v.tx, t, at_x);
-    at_y = madd(v.ty, t, at_y);
-  }
-  *out_x = madd(change, x, at_x);
-  *out_y = madd(mul(change, v.aspect), y, at_y);
+  change = tangential ? madd(change, t, madd(v.p1, ey, madd(v.p2, ex, v.p0))) : mul(change, t);
+  *out_x = madd(change, x, tangential ? madd(v.tx, t, ex) : ex);
+  *out_y = madd(mul(change, v.aspect), y, tangential ? madd(v.ty, t, ey) : ey);
   *out_t = t;
   if (!slopes) return;
   vf derivative = set1(l.slope[terms - 1]);
   TEXTPLANE_SIMD_UNROLL
   for (int k = terms - 2; k >= 0; --k) derivative = madd(derivative, t, set1(l.slope[k]));
-  *s = add(v.sx, change);
+  *s = madd(change, v.x_scale, set1(1.0F));
   *slope = derivative;
 }
-TEXTPLANE_SIMD_ENTRY void lens_or_outside(const LensFrame& l, vf dx, vf dy, vf* out_x, vf* out_y) noexcept {
+TEXTPLANE_SIMD_ENTRY void lens_or_outside(const LensFrame& l, vf ex, vf ey, vf* out_x, vf* out_y) noexcept {
   const LensVectors v = broadcast_lens(l);
   vf x, y, t, unused_s, unused_slope;
   switch (lens_kind(l)) {
-    case kLensShort: lens_vector(l, v, kLensShort, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope); break;
+    case kLensShort: lens_vector(l, v, kLensShort, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope); break;
     case kLensTangential:
-      lens_vector(l, v, kLensTangential, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope);
+      lens_vector(l, v, kLensTangential, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope);
       break;
-    case kLensMiddle: lens_vector(l, v, kLensMiddle, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope); break;
-    default: lens_vector(l, v, kLensLong, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope);
+    case kLensMiddle: lens_vector(l, v, kLensMiddle, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope); break;
+    default: lens_vector(l, v, kLensLong, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope);
   }
   const vm held = and_(ge(t, set1(l.t_low)), le(t, set1(l.t_high)));
   *out_x = select(held, x, set1(-1e9F));
   *out_y = select(held, y, set1(-1e9F));
 }
-TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f, const LensFrame& l, int kind,
-                                     bool slopes, const ImageTiles& tiles, int held,
-                                     const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
-                                     int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
-                                     SampleStrip* TEXTPLANE_SIMD_RESTRICT strip,
-                                     LensStrip* TEXTPLANE_SIMD_RESTRICT lens) noexcept {
+TEXTPLANE_SIMD_INLINE void warp_before_lens(const simd::Warp8& w, const float* TEXTPLANE_SIMD_RESTRICT px,
+                                            const float* TEXTPLANE_SIMD_RESTRICT py, int n,
+                                            float* TEXTPLANE_SIMD_RESTRICT x,
+                                            float* TEXTPLANE_SIMD_RESTRICT y) noexcept {
   const WarpVectors warp = broadcast_warp(w);
+  for (int i = 0; i < n; i += kLanes) {
+    vf ex, ey, divisor;
+    warp_vector(warp, load_part(px + i, n - i), load_part(py + i, n - i), &ex, &ey, &divisor);
+    store(x + i, ex);
+    store(y + i, ey);
+  }
+}
+TEXTPLANE_SIMD_INLINE void lens_loop(const SampleFrame& f, const LensFrame& l, int kind, bool slopes,
+                                     const ImageTiles& tiles, int held, int n, const float* TEXTPLANE_SIMD_RESTRICT x,
+                                     const float* TEXTPLANE_SIMD_RESTRICT y, SampleStrip* TEXTPLANE_SIMD_RESTRICT strip,
+                                     LensStrip* TEXTPLANE_SIMD_RESTRICT lens) noexcept {
   const LensVectors v = broadcast_lens(l);
-  vf dx, dy, divisor, at_x, at_y, unused_t, s, slope;
+  vf at_x, at_y, unused_t, s, slope;
   if (kInt16Tiles != 0 && held > 0) {
     const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(tiles.x_high));
     const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(tiles.y_high));
@@ -16855,10 +16848,7 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
       TEXTPLANE_SIMD_UNROLL
       for (int k = 0; k < 2; ++k) {
         const int j = i + k * kLanes;
-        warp_vector(warp, load(px + j), load(py + j), &dx, &dy, &divisor);
-        lens_vector(l, v, kind, slopes, dx, dy, &at_x, &at_y, &unused_t, &s, &slope);
-        store(x + j, dx);
-        store(y + j, dy);
+        lens_vector(l, v, kind, slopes, load(x + j), load(y + j), &at_x, &at_y, &unused_t, &s, &slope);
         if (slopes) {
           store(lens->s + j, s);
           store(lens->slope + j, slope);
@@ -16872,10 +16862,7 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
   }
   const CellVectors cells = broadcast_cells(f);
   for (int i = held; i < n; i += kLanes) {
-    warp_vector(warp, load_part(px + i, n - i), load_part(py + i, n - i), &dx, &dy, &divisor);
-    lens_vector(l, v, kind, slopes, dx, dy, &at_x, &at_y, &unused_t, &s, &slope);
-    store(x + i, dx);
-    store(y + i, dy);
+    lens_vector(l, v, kind, slopes, load(x + i), load(y + i), &at_x, &at_y, &unused_t, &s, &slope);
     if (slopes) {
       store(lens->s + i, s);
       store(lens->slope + i, slope);
@@ -16886,11 +16873,12 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
 TEXTPLANE_SIMD_INLINE void lens_strip(const simd::Warp8& w, const SampleFrame& f, const LensFrame& l, bool slopes,
                                       const ImageTiles& tiles, int held, const float* px, const float* py, int n,
                                       float* x, float* y, SampleStrip* strip, LensStrip* lens) noexcept {
+  warp_before_lens(w, px, py, n, x, y);
   switch (lens_kind(l)) {
-    case kLensShort: return lens_loop(w, f, l, kLensShort, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    case kLensTangential: return lens_loop(w, f, l, kLensTangential, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    case kLensMiddle: return lens_loop(w, f, l, kLensMiddle, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    default: return lens_loop(w, f, l, kLensLong, slopes, tiles, held, px, py, n, x, y, strip, lens);
+    case kLensShort: return lens_loop(f, l, kLensShort, slopes, tiles, held, n, x, y, strip, lens);
+    case kLensTangential: return lens_loop(f, l, kLensTangential, slopes, tiles, held, n, x, y, strip, lens);
+    case kLensMiddle: return lens_loop(f, l, kLensMiddle, slopes, tiles, held, n, x, y, strip, lens);
+    default: return lens_loop(f, l, kLensLong, slopes, tiles, held, n, x, y, strip, lens);
   }
 }
 TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangential, bool paired,
@@ -16899,16 +16887,19 @@ TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangentia
                                               const float* TEXTPLANE_SIMD_RESTRICT y, int n,
                                               float* TEXTPLANE_SIMD_RESTRICT value, float* TEXTPLANE_SIMD_RESTRICT a,
                                               float* TEXTPLANE_SIMD_RESTRICT b) noexcept {
-  const vf mx = set1(l.mx), my = set1(l.my), aspect = set1(l.aspect), p1 = set1(l.p1), p2 = set1(l.p2);
+  const float wide = 1.0F / l.aspect;
+  const vf x_scale = set1(l.x_scale), x_shift = set1(l.x_shift), out_scale = set1(l.y_scale * l.aspect),
+           out_shift = set1(l.y_shift * l.aspect), along_scale = set1(l.y_scale * wide),
+           along_shift = set1(l.y_shift * wide), p1 = set1(l.p1), p2 = set1(l.p2), tx = set1(2.0F * l.x_scale * l.tx),
+           ty = set1(2.0F * l.x_scale * l.ty);
   for (int i = 0; i < n; i += kLanes) {
     vf here, gx, gy;
     interpolate_vector(strip, i, paired, &here, &gx, &gy);
-    const vf X = add(load(x + i), mx), Y = add(load(y + i), my), s = load(lens.s + i);
-    gy = mul(gy, aspect);
-    const vf out = madd(gx, X, mul(gy, Y));
+    const vf ey = load(y + i), X = madd(x_scale, load(x + i), x_shift), s = load(lens.s + i);
+    const vf out = madd(gx, X, mul(gy, madd(out_scale, ey, out_shift))), Y = madd(along_scale, ey, along_shift);
     vf along = mul(load(lens.slope + i), out), ga, gb;
     if (tangential) {
-      along = madd(p2, gx, madd(p1, gy, along));
+      along = madd(tx, gx, madd(ty, gy, along));
       ga = madd(along, X, madd(s, gx, mul(p2, out)));
       gb = madd(along, Y, madd(s, gy, mul(p1, out)));
     } else {
@@ -16921,38 +16912,15 @@ TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangentia
   }
 }
 TEXTPLANE_SIMD_INLINE void lens_turn(const LensFrame& l, float* a, float* b, float* c, float* d) noexcept {
-  const float slope = l.slope[0], x = l.mx, y = l.my, r = l.aspect;
-  const float xx = l.sx + x * (slope * x + l.p2) + 2.0F * l.tx * x, xy = x * (slope * y + l.p1) + 2.0F * l.tx * y;
-  const float yx = r * y * (slope * x + l.p2) + 2.0F * l.ty * x,
-              yy = l.sy + r * y * (slope * y + l.p1) + 2.0F * l.ty * y;
+  const float x = l.x_shift, y = l.y_shift, r = l.aspect, slope = l.slope[0];
+  const float by_x = slope * x + l.p2, by_y = slope * y / r + l.p1;
+  const float xx = 1.0F + x * by_x + 2.0F * l.tx * x * l.x_scale, xy = x * by_y + 2.0F * l.tx * y * l.y_scale;
+  const float yx = r * y * by_x + 2.0F * l.ty * x * l.x_scale, yy = 1.0F + r * y * by_y + 2.0F * l.ty * y * l.y_scale;
   const float a0 = *a, b0 = *b, c0 = *c, d0 = *d;
   *a = xx * a0 + xy * c0;
   *b = xx * b0 + xy * d0;
   *c = yx * a0 + yy * c0;
   *d = yx * b0 + yy * d0;
-}
-enum : int { kBorderSide = 4, kBorder = 4 * kBorderSide };
-TEXTPLANE_SIMD_INLINE void bound_border(const float* x, const float* y, float* box) noexcept {
-  float bend = 0.0F;
-  for (int axis = 0; axis < 2; ++axis) {
-    const float* p = axis == 0 ? x : y;
-    float low = p[0], high = p[0];
-    for (int k = 0; k < kBorder; ++k) {
-      const float here = p[k];
-      low = here < low ? here : low;
-      high = here > high ? here : high;
-      if (k % kBorderSide == 0) continue;
-      const float turn = p[k - 1] - 2.0F * here + p[k + 1 < kBorder ? k + 1 : 0], size = turn < 0 ? -turn : turn;
-      bend = size > bend ? size : bend;
-    }
-    box[axis] = low;
-    box[2 + axis] = high;
-  }
-  const float margin = 0.5F * bend;
-  box[0] -= margin;
-  box[1] -= margin;
-  box[2] += margin;
-  box[3] += margin;
 }
 }
 }
@@ -16976,91 +16944,107 @@ TEXTPLANE_SIMD_INLINE bool make_lens_frame(const simd::LensFit& fit, const doubl
   const double r0 = fit.r0, s = fit.c[0] + 2 * (p1 * y + p2 * x);
   const double px = fx * (s * x + r0 * p2) + camera[2], py = fy * (s * y + r0 * p1) + camera[3];
   if (!(px > -1e6 && px < 1e6 && py > -1e6 && py < 1e6 && r0 < 1e6)) return false;
+  if (!(s > 1e-3 && fx > 1e-20 && fy > 1e-20)) return false;
   l->ox = !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
   l->oy = !(py > 0) ? 0 : py < height - 1 ? static_cast<int>(py + 0.5) : height - 1;
-  l->mx = static_cast<float>(x);
-  l->my = static_cast<float>(y);
+  const double x_scale = 1 / (fx * s), y_scale = 1 / (fy * s), ax = px - l->ox, ay = py - l->oy;
+  l->camera[0] = fx * s;
+  l->camera[1] = fy * s;
+  l->camera[2] = px - l->camera[0] * x;
+  l->camera[3] = py - l->camera[1] * y;
+  l->x_scale = static_cast<float>(x_scale);
+  l->y_scale = static_cast<float>(y_scale);
+  l->x_shift = static_cast<float>(x - ax * x_scale);
+  l->y_shift = static_cast<float>(y - ay * y_scale);
   l->r0 = static_cast<float>(r0);
-  l->sx = static_cast<float>(fx * s);
-  l->sy = static_cast<float>(fy * s);
   l->aspect = static_cast<float>(fy / fx);
-  l->ax = static_cast<float>(px - l->ox);
-  l->ay = static_cast<float>(py - l->oy);
-  for (int k = 0; k < simd::kLensTerms; ++k) {
+  const bool all = fit.terms > 6 || (fit.terms > 3 && (p1 != 0 || p2 != 0));
+  l->terms = all ? static_cast<int>(simd::kLensTerms) : fit.terms;
+  for (int k = 0; k < l->terms; ++k) {
     l->c[k] = static_cast<float>(fx * fit.c[k + 1]);
-    l->slope[k] = static_cast<float>(2 * fx * (k + 1) * fit.c[k + 1]);
+    l->slope[k] = static_cast<float>(2 / s * (k + 1) * fit.c[k + 1]);
   }
-  l->p1 = static_cast<float>(2 * fx * p1);
-  l->p2 = static_cast<float>(2 * fx * p2);
+  l->p1 = static_cast<float>(2 * fx * p1 * y_scale);
+  l->p2 = static_cast<float>(2 * fx * p2 * x_scale);
+  l->p0 = static_cast<float>(-2 * fx * (p1 * ay * y_scale + p2 * ax * x_scale));
   l->tx = static_cast<float>(fx * p2);
   l->ty = static_cast<float>(fy * p1);
   l->t_low = static_cast<float>(fit.low - r0);
   l->t_high = static_cast<float>(fit.high - r0);
   l->tangential = p1 != 0 || p2 != 0;
-  l->terms = !l->tangential || fit.terms <= 3 ? fit.terms : static_cast<int>(simd::kLensTerms);
   l->on = true;
   return true;
 }
+TEXTPLANE_SIMD_INLINE void move_lens_origin(int dx, int dy, LensFrame* l) noexcept {
+  const float x = static_cast<float>(dx), y = static_cast<float>(dy);
+  l->x_shift += x * l->x_scale;
+  l->y_shift += y * l->y_scale;
+  l->p0 += l->p2 * x + l->p1 * y;
+}
 struct LensVectors {
-  vf mx, my, r0, sx, sy, aspect, ax, ay, p1, p2, tx, ty;
+  vf x_scale, x_shift, y_scale, y_shift, r0, aspect, p1, p2, p0, tx, ty;
 };
 TEXTPLANE_SIMD_INLINE LensVectors broadcast_lens(const LensFrame& l) noexcept {
-  return LensVectors{set1(l.mx), set1(l.my), set1(-l.r0), set1(l.sx), set1(l.sy), set1(l.aspect),
-                     set1(l.ax), set1(l.ay), set1(l.p1),  set1(l.p2), set1(l.tx), set1(l.ty)};
+  return LensVectors{set1(l.x_scale), set1(l.x_shift), set1(l.y_scale), set1(l.y_shift), set1(-l.r0), set1(l.aspect),
+                     set1(l.p1),      set1(l.p2),      set1(l.p0),      set1(l.tx),      set1(l.ty)};
 }
 enum LensKind : int { kLensShort, kLensTangential, kLensMiddle, kLensLong };
 TEXTPLANE_SIMD_INLINE int lens_kind(const LensFrame& l) noexcept {
   return l.terms > 6 ? kLensLong : l.terms > 3 ? kLensMiddle : l.tangential ? kLensTangential : kLensShort;
 }
-TEXTPLANE_SIMD_INLINE void lens_vector(const LensFrame& l, const LensVectors& v, int kind, bool slopes, vf dx, vf dy,
+TEXTPLANE_SIMD_INLINE void lens_vector(const LensFrame& l, const LensVectors& v, int kind, bool slopes, vf ex, vf ey,
                                        vf* out_x, vf* out_y, vf* out_t, vf* s, vf* slope) noexcept {
   const int terms = kind == kLensLong ? static_cast<int>(simd::kLensTerms) : kind == kLensMiddle ? 6 : 3;
   const bool tangential = kind == kLensLong || kind == kLensTangential;
-  const vf x = add(dx, v.mx), y = add(dy, v.my), t = madd(x, x, madd(y, y, v.r0));
+  const vf x = madd(v.x_scale, ex, v.x_shift), y = madd(v.y_scale, ey, v.y_shift);
+  const vf t = madd(x, x, madd(y, y, v.r0));
   vf change = set1(l.c[terms - 1]);
   TEXTPLANE_SIMD_UNROLL
   for (int k = terms - 2; k >= 0; --k) change = madd(change, t, set1(l.c[k]));
-  change = mul(change, t);
-  if (tangential) change = madd(v.p1, dy, madd(v.p2, dx, change));
-  vf at_x = madd(v.sx, dx, v.ax), at_y = madd(v.sy, dy, v.ay);
-  if (tangential) {
-    at_x = madd(v.tx, t, at_x);
-    at_y = madd(v.ty, t, at_y);
-  }
-  *out_x = madd(change, x, at_x);
-  *out_y = madd(mul(change, v.aspect), y, at_y);
+  change = tangential ? madd(change, t, madd(v.p1, ey, madd(v.p2, ex, v.p0))) : mul(change, t);
+  *out_x = madd(change, x, tangential ? madd(v.tx, t, ex) : ex);
+  *out_y = madd(mul(change, v.aspect), y, tangential ? madd(v.ty, t, ey) : ey);
   *out_t = t;
   if (!slopes) return;
   vf derivative = set1(l.slope[terms - 1]);
   TEXTPLANE_SIMD_UNROLL
   for (int k = terms - 2; k >= 0; --k) derivative = madd(derivative, t, set1(l.slope[k]));
-  *s = add(v.sx, change);
+  *s = madd(change, v.x_scale, set1(1.0F));
   *slope = derivative;
 }
-TEXTPLANE_SIMD_ENTRY void lens_or_outside(const LensFrame& l, vf dx, vf dy, vf* out_x, vf* out_y) noexcept {
+TEXTPLANE_SIMD_ENTRY void lens_or_outside(const LensFrame& l, vf ex, vf ey, vf* out_x, vf* out_y) noexcept {
   const LensVectors v = broadcast_lens(l);
   vf x, y, t, unused_s, unused_slope;
   switch (lens_kind(l)) {
-    case kLensShort: lens_vector(l, v, kLensShort, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope); break;
+    case kLensShort: lens_vector(l, v, kLensShort, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope); break;
     case kLensTangential:
-      lens_vector(l, v, kLensTangential, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope);
+      lens_vector(l, v, kLensTangential, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope);
       break;
-    case kLensMiddle: lens_vector(l, v, kLensMiddle, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope); break;
-    default: lens_vector(l, v, kLensLong, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope);
+    case kLensMiddle: lens_vector(l, v, kLensMiddle, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope); break;
+    default: lens_vector(l, v, kLensLong, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope);
   }
   const vm held = and_(ge(t, set1(l.t_low)), le(t, set1(l.t_high)));
   *out_x = select(held, x, set1(-1e9F));
   *out_y = select(held, y, set1(-1e9F));
 }
-TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f, const LensFrame& l, int kind,
-                                     bool slopes, const ImageTiles& tiles, int held,
-                                     const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
-                                     int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
-                                     SampleStrip* TEXTPLANE_SIMD_RESTRICT strip,
-                                     LensStrip* TEXTPLANE_SIMD_RESTRICT lens) noexcept {
+TEXTPLANE_SIMD_INLINE void warp_before_lens(const simd::Warp8& w, const float* TEXTPLANE_SIMD_RESTRICT px,
+                                            const float* TEXTPLANE_SIMD_RESTRICT py, int n,
+                                            float* TEXTPLANE_SIMD_RESTRICT x,
+                                            float* TEXTPLANE_SIMD_RESTRICT y) noexcept {
   const WarpVectors warp = broadcast_warp(w);
+  for (int i = 0; i < n; i += kLanes) {
+    vf ex, ey, divisor;
+    warp_vector(warp, load_part(px + i, n - i), load_part(py + i, n - i), &ex, &ey, &divisor);
+    store(x + i, ex);
+    store(y + i, ey);
+  }
+}
+TEXTPLANE_SIMD_INLINE void lens_loop(const SampleFrame& f, const LensFrame& l, int kind, bool slopes,
+                                     const ImageTiles& tiles, int held, int n, const float* TEXTPLANE_SIMD_RESTRICT x,
+                                     const float* TEXTPLANE_SIMD_RESTRICT y, SampleStrip* TEXTPLANE_SIMD_RESTRICT strip,
+                                     LensStrip* TEXTPLANE_SIMD_RESTRICT lens) noexcept {
   const LensVectors v = broadcast_lens(l);
-  vf dx, dy, divisor, at_x, at_y, unused_t, s, slope;
+  vf at_x, at_y, unused_t, s, slope;
   if (kInt16Tiles != 0 && held > 0) {
     const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(tiles.x_high));
     const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(tiles.y_high));
@@ -17069,10 +17053,7 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
       TEXTPLANE_SIMD_UNROLL
       for (int k = 0; k < 2; ++k) {
         const int j = i + k * kLanes;
-        warp_vector(warp, load(px + j), load(py + j), &dx, &dy, &divisor);
-        lens_vector(l, v, kind, slopes, dx, dy, &at_x, &at_y, &unused_t, &s, &slope);
-        store(x + j, dx);
-        store(y + j, dy);
+        lens_vector(l, v, kind, slopes, load(x + j), load(y + j), &at_x, &at_y, &unused_t, &s, &slope);
         if (slopes) {
           store(lens->s + j, s);
           store(lens->slope + j, slope);
@@ -17086,10 +17067,7 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
   }
   const CellVectors cells = broadcast_cells(f);
   for (int i = held; i < n; i += kLanes) {
-    warp_vector(warp, load_part(px + i, n - i), load_part(py + i, n - i), &dx, &dy, &divisor);
-    lens_vector(l, v, kind, slopes, dx, dy, &at_x, &at_y, &unused_t, &s, &slope);
-    store(x + i, dx);
-    store(y + i, dy);
+    lens_vector(l, v, kind, slopes, load(x + i), load(y + i), &at_x, &at_y, &unused_t, &s, &slope);
     if (slopes) {
       store(lens->s + i, s);
       store(lens->slope + i, slope);
@@ -17100,11 +17078,12 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
 TEXTPLANE_SIMD_INLINE void lens_strip(const simd::Warp8& w, const SampleFrame& f, const LensFrame& l, bool slopes,
                                       const ImageTiles& tiles, int held, const float* px, const float* py, int n,
                                       float* x, float* y, SampleStrip* strip, LensStrip* lens) noexcept {
+  warp_before_lens(w, px, py, n, x, y);
   switch (lens_kind(l)) {
-    case kLensShort: return lens_loop(w, f, l, kLensShort, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    case kLensTangential: return lens_loop(w, f, l, kLensTangential, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    case kLensMiddle: return lens_loop(w, f, l, kLensMiddle, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    default: return lens_loop(w, f, l, kLensLong, slopes, tiles, held, px, py, n, x, y, strip, lens);
+    case kLensShort: return lens_loop(f, l, kLensShort, slopes, tiles, held, n, x, y, strip, lens);
+    case kLensTangential: return lens_loop(f, l, kLensTangential, slopes, tiles, held, n, x, y, strip, lens);
+    case kLensMiddle: return lens_loop(f, l, kLensMiddle, slopes, tiles, held, n, x, y, strip, lens);
+    default: return lens_loop(f, l, kLensLong, slopes, tiles, held, n, x, y, strip, lens);
   }
 }
 TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangential, bool paired,
@@ -17113,16 +17092,19 @@ TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangentia
                                               const float* TEXTPLANE_SIMD_RESTRICT y, int n,
                                               float* TEXTPLANE_SIMD_RESTRICT value, float* TEXTPLANE_SIMD_RESTRICT a,
                                               float* TEXTPLANE_SIMD_RESTRICT b) noexcept {
-  const vf mx = set1(l.mx), my = set1(l.my), aspect = set1(l.aspect), p1 = set1(l.p1), p2 = set1(l.p2);
+  const float wide = 1.0F / l.aspect;
+  const vf x_scale = set1(l.x_scale), x_shift = set1(l.x_shift), out_scale = set1(l.y_scale * l.aspect),
+           out_shift = set1(l.y_shift * l.aspect), along_scale = set1(l.y_scale * wide),
+           along_shift = set1(l.y_shift * wide), p1 = set1(l.p1), p2 = set1(l.p2), tx = set1(2.0F * l.x_scale * l.tx),
+           ty = set1(2.0F * l.x_scale * l.ty);
   for (int i = 0; i < n; i += kLanes) {
     vf here, gx, gy;
     interpolate_vector(strip, i, paired, &here, &gx, &gy);
-    const vf X = add(load(x + i), mx), Y = add(load(y + i), my), s = load(lens.s + i);
-    gy = mul(gy, aspect);
-    const vf out = madd(gx, X, mul(gy, Y));
+    const vf ey = load(y + i), X = madd(x_scale, load(x + i), x_shift), s = load(lens.s + i);
+    const vf out = madd(gx, X, mul(gy, madd(out_scale, ey, out_shift))), Y = madd(along_scale, ey, along_shift);
     vf along = mul(load(lens.slope + i), out), ga, gb;
     if (tangential) {
-      along = madd(p2, gx, madd(p1, gy, along));
+      along = madd(tx, gx, madd(ty, gy, along));
       ga = madd(along, X, madd(s, gx, mul(p2, out)));
       gb = madd(along, Y, madd(s, gy, mul(p1, out)));
     } else {
@@ -17135,38 +17117,15 @@ TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangentia
   }
 }
 TEXTPLANE_SIMD_INLINE void lens_turn(const LensFrame& l, float* a, float* b, float* c, float* d) noexcept {
-  const float slope = l.slope[0], x = l.mx, y = l.my, r = l.aspect;
-  const float xx = l.sx + x * (slope * x + l.p2) + 2.0F * l.tx * x, xy = x * (slope * y + l.p1) + 2.0F * l.tx * y;
-  const float yx = r * y * (slope * x + l.p2) + 2.0F * l.ty * x,
-              yy = l.sy + r * y * (slope * y + l.p1) + 2.0F * l.ty * y;
+  const float x = l.x_shift, y = l.y_shift, r = l.aspect, slope = l.slope[0];
+  const float by_x = slope * x + l.p2, by_y = slope * y / r + l.p1;
+  const float xx = 1.0F + x * by_x + 2.0F * l.tx * x * l.x_scale, xy = x * by_y + 2.0F * l.tx * y * l.y_scale;
+  const float yx = r * y * by_x + 2.0F * l.ty * x * l.x_scale, yy = 1.0F + r * y * by_y + 2.0F * l.ty * y * l.y_scale;
   const float a0 = *a, b0 = *b, c0 = *c, d0 = *d;
   *a = xx * a0 + xy * c0;
   *b = xx * b0 + xy * d0;
   *c = yx * a0 + yy * c0;
   *d = yx * b0 + yy * d0;
-}
-enum : int { kBorderSide = 4, kBorder = 4 * kBorderSide };
-TEXTPLANE_SIMD_INLINE void bound_border(const float* x, const float* y, float* box) noexcept {
-  float bend = 0.0F;
-  for (int axis = 0; axis < 2; ++axis) {
-    const float* p = axis == 0 ? x : y;
-    float low = p[0], high = p[0];
-    for (int k = 0; k < kBorder; ++k) {
-      const float here = p[k];
-      low = here < low ? here : low;
-      high = here > high ? here : high;
-      if (k % kBorderSide == 0) continue;
-      const float turn = p[k - 1] - 2.0F * here + p[k + 1 < kBorder ? k + 1 : 0], size = turn < 0 ? -turn : turn;
-      bend = size > bend ? size : bend;
-    }
-    box[axis] = low;
-    box[2 + axis] = high;
-  }
-  const float margin = 0.5F * bend;
-  box[0] -= margin;
-  box[1] -= margin;
-  box[2] += margin;
-  box[3] += margin;
 }
 }
 }
@@ -17190,91 +17149,107 @@ TEXTPLANE_SIMD_INLINE bool make_lens_frame(const simd::LensFit& fit, const doubl
   const double r0 = fit.r0, s = fit.c[0] + 2 * (p1 * y + p2 * x);
   const double px = fx * (s * x + r0 * p2) + camera[2], py = fy * (s * y + r0 * p1) + camera[3];
   if (!(px > -1e6 && px < 1e6 && py > -1e6 && py < 1e6 && r0 < 1e6)) return false;
+  if (!(s > 1e-3 && fx > 1e-20 && fy > 1e-20)) return false;
   l->ox = !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
   l->oy = !(py > 0) ? 0 : py < height - 1 ? static_cast<int>(py + 0.5) : height - 1;
-  l->mx = static_cast<float>(x);
-  l->my = static_cast<float>(y);
+  const double x_scale = 1 / (fx * s), y_scale = 1 / (fy * s), ax = px - l->ox, ay = py - l->oy;
+  l->camera[0] = fx * s;
+  l->camera[1] = fy * s;
+  l->camera[2] = px - l->camera[0] * x;
+  l->camera[3] = py - l->camera[1] * y;
+  l->x_scale = static_cast<float>(x_scale);
+  l->y_scale = static_cast<float>(y_scale);
+  l->x_shift = static_cast<float>(x - ax * x_scale);
+  l->y_shift = static_cast<float>(y - ay * y_scale);
   l->r0 = static_cast<float>(r0);
-  l->sx = static_cast<float>(fx * s);
-  l->sy = static_cast<float>(fy * s);
   l->aspect = static_cast<float>(fy / fx);
-  l->ax = static_cast<float>(px - l->ox);
-  l->ay = static_cast<float>(py - l->oy);
-  for (int k = 0; k < simd::kLensTerms; ++k) {
+  const bool all = fit.terms > 6 || (fit.terms > 3 && (p1 != 0 || p2 != 0));
+  l->terms = all ? static_cast<int>(simd::kLensTerms) : fit.terms;
+  for (int k = 0; k < l->terms; ++k) {
     l->c[k] = static_cast<float>(fx * fit.c[k + 1]);
-    l->slope[k] = static_cast<float>(2 * fx * (k + 1) * fit.c[k + 1]);
+    l->slope[k] = static_cast<float>(2 / s * (k + 1) * fit.c[k + 1]);
   }
-  l->p1 = static_cast<float>(2 * fx * p1);
-  l->p2 = static_cast<float>(2 * fx * p2);
+  l->p1 = static_cast<float>(2 * fx * p1 * y_scale);
+  l->p2 = static_cast<float>(2 * fx * p2 * x_scale);
+  l->p0 = static_cast<float>(-2 * fx * (p1 * ay * y_scale + p2 * ax * x_scale));
   l->tx = static_cast<float>(fx * p2);
   l->ty = static_cast<float>(fy * p1);
   l->t_low = static_cast<float>(fit.low - r0);
   l->t_high = static_cast<float>(fit.high - r0);
   l->tangential = p1 != 0 || p2 != 0;
-  l->terms = !l->tangential || fit.terms <= 3 ? fit.terms : static_cast<int>(simd::kLensTerms);
   l->on = true;
   return true;
 }
+TEXTPLANE_SIMD_INLINE void move_lens_origin(int dx, int dy, LensFrame* l) noexcept {
+  const float x = static_cast<float>(dx), y = static_cast<float>(dy);
+  l->x_shift += x * l->x_scale;
+  l->y_shift += y * l->y_scale;
+  l->p0 += l->p2 * x + l->p1 * y;
+}
 struct LensVectors {
-  vf mx, my, r0, sx, sy, aspect, ax, ay, p1, p2, tx, ty;
+  vf x_scale, x_shift, y_scale, y_shift, r0, aspect, p1, p2, p0, tx, ty;
 };
 TEXTPLANE_SIMD_INLINE LensVectors broadcast_lens(const LensFrame& l) noexcept {
-  return LensVectors{set1(l.mx), set1(l.my), set1(-l.r0), set1(l.sx), set1(l.sy), set1(l.aspect),
-                     set1(l.ax), set1(l.ay), set1(l.p1),  set1(l.p2), set1(l.tx), set1(l.ty)};
+  return LensVectors{set1(l.x_scale), set1(l.x_shift), set1(l.y_scale), set1(l.y_shift), set1(-l.r0), set1(l.aspect),
+                     set1(l.p1),      set1(l.p2),      set1(l.p0),      set1(l.tx),      set1(l.ty)};
 }
 enum LensKind : int { kLensShort, kLensTangential, kLensMiddle, kLensLong };
 TEXTPLANE_SIMD_INLINE int lens_kind(const LensFrame& l) noexcept {
   return l.terms > 6 ? kLensLong : l.terms > 3 ? kLensMiddle : l.tangential ? kLensTangential : kLensShort;
 }
-TEXTPLANE_SIMD_INLINE void lens_vector(const LensFrame& l, const LensVectors& v, int kind, bool slopes, vf dx, vf dy,
+TEXTPLANE_SIMD_INLINE void lens_vector(const LensFrame& l, const LensVectors& v, int kind, bool slopes, vf ex, vf ey,
                                        vf* out_x, vf* out_y, vf* out_t, vf* s, vf* slope) noexcept {
   const int terms = kind == kLensLong ? static_cast<int>(simd::kLensTerms) : kind == kLensMiddle ? 6 : 3;
   const bool tangential = kind == kLensLong || kind == kLensTangential;
-  const vf x = add(dx, v.mx), y = add(dy, v.my), t = madd(x, x, madd(y, y, v.r0));
+  const vf x = madd(v.x_scale, ex, v.x_shift), y = madd(v.y_scale, ey, v.y_shift);
+  const vf t = madd(x, x, madd(y, y, v.r0));
   vf change = set1(l.c[terms - 1]);
   TEXTPLANE_SIMD_UNROLL
   for (int k = terms - 2; k >= 0; --k) change = madd(change, t, set1(l.c[k]));
-  change = mul(change, t);
-  if (tangential) change = madd(v.p1, dy, madd(v.p2, dx, change));
-  vf at_x = madd(v.sx, dx, v.ax), at_y = madd(v.sy, dy, v.ay);
-  if (tangential) {
-    at_x = madd(v.tx, t, at_x);
-    at_y = madd(v.ty, t, at_y);
-  }
-  *out_x = madd(change, x, at_x);
-  *out_y = madd(mul(change, v.aspect), y, at_y);
+  change = tangential ? madd(change, t, madd(v.p1, ey, madd(v.p2, ex, v.p0))) : mul(change, t);
+  *out_x = madd(change, x, tangential ? madd(v.tx, t, ex) : ex);
+  *out_y = madd(mul(change, v.aspect), y, tangential ? madd(v.ty, t, ey) : ey);
   *out_t = t;
   if (!slopes) return;
   vf derivative = set1(l.slope[terms - 1]);
   TEXTPLANE_SIMD_UNROLL
   for (int k = terms - 2; k >= 0; --k) derivative = madd(derivative, t, set1(l.slope[k]));
-  *s = add(v.sx, change);
+  *s = madd(change, v.x_scale, set1(1.0F));
   *slope = derivative;
 }
-TEXTPLANE_SIMD_ENTRY void lens_or_outside(const LensFrame& l, vf dx, vf dy, vf* out_x, vf* out_y) noexcept {
+TEXTPLANE_SIMD_ENTRY void lens_or_outside(const LensFrame& l, vf ex, vf ey, vf* out_x, vf* out_y) noexcept {
   const LensVectors v = broadcast_lens(l);
   vf x, y, t, unused_s, unused_slope;
   switch (lens_kind(l)) {
-    case kLensShort: lens_vector(l, v, kLensShort, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope); break;
+    case kLensShort: lens_vector(l, v, kLensShort, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope); break;
     case kLensTangential:
-      lens_vector(l, v, kLensTangential, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope);
+      lens_vector(l, v, kLensTangential, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope);
       break;
-    case kLensMiddle: lens_vector(l, v, kLensMiddle, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope); break;
-    default: lens_vector(l, v, kLensLong, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope);
+    case kLensMiddle: lens_vector(l, v, kLensMiddle, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope); break;
+    default: lens_vector(l, v, kLensLong, false, ex, ey, &x, &y, &t, &unused_s, &unused_slope);
   }
   const vm held = and_(ge(t, set1(l.t_low)), le(t, set1(l.t_high)));
   *out_x = select(held, x, set1(-1e9F));
   *out_y = select(held, y, set1(-1e9F));
 }
-TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f, const LensFrame& l, int kind,
-                                     bool slopes, const ImageTiles& tiles, int held,
-                                     const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
-                                     int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
-                                     SampleStrip* TEXTPLANE_SIMD_RESTRICT strip,
-                                     LensStrip* TEXTPLANE_SIMD_RESTRICT lens) noexcept {
+TEXTPLANE_SIMD_INLINE void warp_before_lens(const simd::Warp8& w, const float* TEXTPLANE_SIMD_RESTRICT px,
+                                            const float* TEXTPLANE_SIMD_RESTRICT py, int n,
+                                            float* TEXTPLANE_SIMD_RESTRICT x,
+                                            float* TEXTPLANE_SIMD_RESTRICT y) noexcept {
   const WarpVectors warp = broadcast_warp(w);
+  for (int i = 0; i < n; i += kLanes) {
+    vf ex, ey, divisor;
+    warp_vector(warp, load_part(px + i, n - i), load_part(py + i, n - i), &ex, &ey, &divisor);
+    store(x + i, ex);
+    store(y + i, ey);
+  }
+}
+TEXTPLANE_SIMD_INLINE void lens_loop(const SampleFrame& f, const LensFrame& l, int kind, bool slopes,
+                                     const ImageTiles& tiles, int held, int n, const float* TEXTPLANE_SIMD_RESTRICT x,
+                                     const float* TEXTPLANE_SIMD_RESTRICT y, SampleStrip* TEXTPLANE_SIMD_RESTRICT strip,
+                                     LensStrip* TEXTPLANE_SIMD_RESTRICT lens) noexcept {
   const LensVectors v = broadcast_lens(l);
-  vf dx, dy, divisor, at_x, at_y, unused_t, s, slope;
+  vf at_x, at_y, unused_t, s, slope;
   if (kInt16Tiles != 0 && held > 0) {
     const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(tiles.x_high));
     const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(tiles.y_high));
@@ -17283,10 +17258,7 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
       TEXTPLANE_SIMD_UNROLL
       for (int k = 0; k < 2; ++k) {
         const int j = i + k * kLanes;
-        warp_vector(warp, load(px + j), load(py + j), &dx, &dy, &divisor);
-        lens_vector(l, v, kind, slopes, dx, dy, &at_x, &at_y, &unused_t, &s, &slope);
-        store(x + j, dx);
-        store(y + j, dy);
+        lens_vector(l, v, kind, slopes, load(x + j), load(y + j), &at_x, &at_y, &unused_t, &s, &slope);
         if (slopes) {
           store(lens->s + j, s);
           store(lens->slope + j, slope);
@@ -17300,10 +17272,7 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
   }
   const CellVectors cells = broadcast_cells(f);
   for (int i = held; i < n; i += kLanes) {
-    warp_vector(warp, load_part(px + i, n - i), load_part(py + i, n - i), &dx, &dy, &divisor);
-    lens_vector(l, v, kind, slopes, dx, dy, &at_x, &at_y, &unused_t, &s, &slope);
-    store(x + i, dx);
-    store(y + i, dy);
+    lens_vector(l, v, kind, slopes, load(x + i), load(y + i), &at_x, &at_y, &unused_t, &s, &slope);
     if (slopes) {
       store(lens->s + i, s);
       store(lens->slope + i, slope);
@@ -17314,11 +17283,12 @@ TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f,
 TEXTPLANE_SIMD_INLINE void lens_strip(const simd::Warp8& w, const SampleFrame& f, const LensFrame& l, bool slopes,
                                       const ImageTiles& tiles, int held, const float* px, const float* py, int n,
                                       float* x, float* y, SampleStrip* strip, LensStrip* lens) noexcept {
+  warp_before_lens(w, px, py, n, x, y);
   switch (lens_kind(l)) {
-    case kLensShort: return lens_loop(w, f, l, kLensShort, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    case kLensTangential: return lens_loop(w, f, l, kLensTangential, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    case kLensMiddle: return lens_loop(w, f, l, kLensMiddle, slopes, tiles, held, px, py, n, x, y, strip, lens);
-    default: return lens_loop(w, f, l, kLensLong, slopes, tiles, held, px, py, n, x, y, strip, lens);
+    case kLensShort: return lens_loop(f, l, kLensShort, slopes, tiles, held, n, x, y, strip, lens);
+    case kLensTangential: return lens_loop(f, l, kLensTangential, slopes, tiles, held, n, x, y, strip, lens);
+    case kLensMiddle: return lens_loop(f, l, kLensMiddle, slopes, tiles, held, n, x, y, strip, lens);
+    default: return lens_loop(f, l, kLensLong, slopes, tiles, held, n, x, y, strip, lens);
   }
 }
 TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangential, bool paired,
@@ -17327,16 +17297,19 @@ TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangentia
                                               const float* TEXTPLANE_SIMD_RESTRICT y, int n,
                                               float* TEXTPLANE_SIMD_RESTRICT value, float* TEXTPLANE_SIMD_RESTRICT a,
                                               float* TEXTPLANE_SIMD_RESTRICT b) noexcept {
-  const vf mx = set1(l.mx), my = set1(l.my), aspect = set1(l.aspect), p1 = set1(l.p1), p2 = set1(l.p2);
+  const float wide = 1.0F / l.aspect;
+  const vf x_scale = set1(l.x_scale), x_shift = set1(l.x_shift), out_scale = set1(l.y_scale * l.aspect),
+           out_shift = set1(l.y_shift * l.aspect), along_scale = set1(l.y_scale * wide),
+           along_shift = set1(l.y_shift * wide), p1 = set1(l.p1), p2 = set1(l.p2), tx = set1(2.0F * l.x_scale * l.tx),
+           ty = set1(2.0F * l.x_scale * l.ty);
   for (int i = 0; i < n; i += kLanes) {
     vf here, gx, gy;
     interpolate_vector(strip, i, paired, &here, &gx, &gy);
-    const vf X = add(load(x + i), mx), Y = add(load(y + i), my), s = load(lens.s + i);
-    gy = mul(gy, aspect);
-    const vf out = madd(gx, X, mul(gy, Y));
+    const vf ey = load(y + i), X = madd(x_scale, load(x + i), x_shift), s = load(lens.s + i);
+    const vf out = madd(gx, X, mul(gy, madd(out_scale, ey, out_shift))), Y = madd(along_scale, ey, along_shift);
     vf along = mul(load(lens.slope + i), out), ga, gb;
     if (tangential) {
-      along = madd(p2, gx, madd(p1, gy, along));
+      along = madd(tx, gx, madd(ty, gy, along));
       ga = madd(along, X, madd(s, gx, mul(p2, out)));
       gb = madd(along, Y, madd(s, gy, mul(p1, out)));
     } else {
@@ -17349,38 +17322,15 @@ TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangentia
   }
 }
 TEXTPLANE_SIMD_INLINE void lens_turn(const LensFrame& l, float* a, float* b, float* c, float* d) noexcept {
-  const float slope = l.slope[0], x = l.mx, y = l.my, r = l.aspect;
-  const float xx = l.sx + x * (slope * x + l.p2) + 2.0F * l.tx * x, xy = x * (slope * y + l.p1) + 2.0F * l.tx * y;
-  const float yx = r * y * (slope * x + l.p2) + 2.0F * l.ty * x,
-              yy = l.sy + r * y * (slope * y + l.p1) + 2.0F * l.ty * y;
+  const float x = l.x_shift, y = l.y_shift, r = l.aspect, slope = l.slope[0];
+  const float by_x = slope * x + l.p2, by_y = slope * y / r + l.p1;
+  const float xx = 1.0F + x * by_x + 2.0F * l.tx * x * l.x_scale, xy = x * by_y + 2.0F * l.tx * y * l.y_scale;
+  const float yx = r * y * by_x + 2.0F * l.ty * x * l.x_scale, yy = 1.0F + r * y * by_y + 2.0F * l.ty * y * l.y_scale;
   const float a0 = *a, b0 = *b, c0 = *c, d0 = *d;
   *a = xx * a0 + xy * c0;
   *b = xx * b0 + xy * d0;
   *c = yx * a0 + yy * c0;
   *d = yx * b0 + yy * d0;
-}
-enum : int { kBorderSide = 4, kBorder = 4 * kBorderSide };
-TEXTPLANE_SIMD_INLINE void bound_border(const float* x, const float* y, float* box) noexcept {
-  float bend = 0.0F;
-  for (int axis = 0; axis < 2; ++axis) {
-    const float* p = axis == 0 ? x : y;
-    float low = p[0], high = p[0];
-    for (int k = 0; k < kBorder; ++k) {
-      const float here = p[k];
-      low = here < low ? here : low;
-      high = here > high ? here : high;
-      if (k % kBorderSide == 0) continue;
-      const float turn = p[k - 1] - 2.0F * here + p[k + 1 < kBorder ? k + 1 : 0], size = turn < 0 ? -turn : turn;
-      bend = size > bend ? size : bend;
-    }
-    box[axis] = low;
-    box[2 + axis] = high;
-  }
-  const float margin = 0.5F * bend;
-  box[0] -= margin;
-  box[1] -= margin;
-  box[2] += margin;
-  box[3] += margin;
 }
 }
 }
@@ -17772,16 +17722,16 @@ enum : int {
 
 // The geometry of one call. (c, d) is the target's principal point relative to the origin.
 struct ResidualFrame {
-  simd::Warp8 warp;    // to the image, or behind a lens to m - m0
+  simd::Warp8 warp;    // to the image, or behind a lens to its pinhole image; its origin is that of both
   SampleFrame sample;  // around (ox, oy)
   ImageTiles tiles;    // used where its guess is likely
   LensFrame lens;
-  int ox, oy;                     // origin of image positions; without a lens that of the warp
-  float rho[3];                   // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
-  double inverse[9];              // H^-1, row-major
-  double q[3];                    // theta^T H^-1
-  double c, d, fx, fy, ifx, ify;  // focal lengths of the target: of its image, or behind a lens 1; their inverses
-  bool inside;                    // if true, every pixel of the patch is visible
+  float rho[3];       // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
+  double inverse[9];  // H^-1, row-major
+  double q[3];        // theta^T H^-1
+  double c, d, fx, fy, ifx,
+      ify;      // focal lengths of the target, behind a lens those of its pinhole image; their inverses
+  bool inside;  // if true, every pixel of the patch is visible
 };
 
 // The caller's scratch: one array of each.
@@ -17858,35 +17808,51 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
   return inside;
 }
 
+// The border of the same square, four points a side from a corner on, and which are not corners.
+constexpr float kBorderX[kMostLanes] = {-1, -.5F, 0, .5F, 1, 1, 1, 1, 1, .5F, 0, -.5F, -1, -1, -1, -1};
+constexpr float kBorderY[kMostLanes] = {-1, -1, -1, -1, -1, -.5F, 0, .5F, 1, 1, 1, 1, 1, .5F, 0, -.5F};
+constexpr float kBetweenCorners[kMostLanes] = {0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1};
+
+// Least and largest of the positions p[1] to p[kMostLanes] of a border, which bound those inside: the lens has an
+// inverse where it holds. What the border does between two points, a share of its second difference says. Writes p[0]
+// and p[kMostLanes + 1].
+TEXTPLANE_SIMD_INLINE void bound_border(float* p, float* low, float* high) noexcept {
+  p[0] = p[kMostLanes];
+  p[kMostLanes + 1] = p[1];
+  vf least = load(p + 1), most = least, bend = zero();
+  for (int k = 0; k < kMostLanes; k += kLanes) {
+    const vf here = load(p + 1 + k), turn = sub(add(load(p + k), load(p + 2 + k)), add(here, here));
+    least = min_(here, least);
+    most = max_(here, most);
+    bend = max_(mul(abs_(turn), load(kBetweenCorners + k)), bend);
+  }
+  const float margin = 0.5F * reduce_max(bend);
+  *low = reduce_min(least) - margin;
+  *high = reduce_max(most) + margin;
+}
+
 // Bounds of the patch's image positions behind a lens, from the border of its box, to the frame.
 TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
-  enum : int { kAll = (int{kBorder} + kMostLanes - 1) / kMostLanes * kMostLanes };
-  const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
-  float u[kAll], v[kAll], x[kAll], y[kAll];
-  for (int k = 0; k < kAll; ++k) {
-    const int side = k / kBorderSide % 4;
-    const float along = static_cast<float>(k % kBorderSide) * (2.0F / static_cast<float>(kBorderSide)) - 1.0F;
-    u[k] = ru * (side == 0 ? along : side == 1 ? 1.0F : side == 2 ? -along : -1.0F);
-    v[k] = rv * (side == 0 ? -1.0F : side == 1 ? along : side == 2 ? 1.0F : -along);
-  }
+  const vf ru = set1(bounds.x_high - f->warp.hx + 1e-3F), rv = set1(bounds.y_high - f->warp.hy + 1e-3F);
+  float x[kMostLanes + 2], y[kMostLanes + 2], *box = f->lens.box;
   const WarpVectors warp = broadcast_warp(f->warp);
-  float* box = f->lens.box;
   box[0] = box[1] = 1;
   box[2] = box[3] = -1;
-  for (int k = 0; k < kAll; k += kLanes) {
-    const vf pu = load(u + k), pv = load(v + k);
+  for (int k = 0; k < kMostLanes; k += kLanes) {
+    const vf pu = mul(ru, load(kBorderX + k)), pv = mul(rv, load(kBorderY + k));
     const vf z = madd(warp.g6, pu, madd(warp.g7, pv, warp.g8)), inverse = div(set1(1.0F), z);
     const vf rho = madd(set1(f->rho[0]), pu, madd(set1(f->rho[1]), pv, set1(f->rho[2])));
     const vf px = mul(madd(warp.g0, pu, madd(warp.g1, pv, warp.g2)), inverse),
              py = mul(madd(warp.g3, pu, madd(warp.g4, pv, warp.g5)), inverse);
     vf at_x, at_y;
     lens_or_outside(f->lens, px, py, &at_x, &at_y);
-    store(x + k, at_x);
-    store(y + k, at_y);
+    store(x + 1 + k, at_x);
+    store(y + 1 + k, at_y);
     const vm ahead = and_(gt(z, set1(1e-3F)), gt(rho, mul(set1(1e-6F), abs_(set1(f->rho[2])))));
     if (!all_true(and_(ahead, gt(at_x, set1(-1e8F))))) return;
   }
-  bound_border(x, y, box);
+  bound_border(x, &box[0], &box[2]);
+  bound_border(y, &box[1], &box[3]);
 }
 
 // H^-1 and theta^T H^-1, to the frame. (Arguments one by one: arrays would pass through memory.)
@@ -17913,22 +17879,13 @@ TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, do
   return true;
 }
 
-// The warp to the target, its lens, and how its image is read.
+// The warp to the target's pinhole image, and how the image is read.
 TEXTPLANE_SIMD_INLINE bool make_target(const simd::ResidualArgs& a, const double* G, float hx, float hy,
                                        ResidualFrame* f) noexcept {
-  f->lens.on = false;
-  if (!a.lens) {
-    if (!make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp)) return false;
-    f->ox = f->warp.ox;
-    f->oy = f->warp.oy;
-  } else {
-    if (!make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens) ||
-        !make_warp_around(G, hx, hy, 0, 0, &f->warp))
-      return false;
-    f->ox = f->lens.ox;
-    f->oy = f->lens.oy;
-  }
-  make_sample_frame(a.target, f->ox, f->oy, &f->sample);
+  if (f->lens.on ? !make_warp_around(G, hx, hy, f->lens.ox, f->lens.oy, &f->warp)
+                 : !make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp))
+    return false;
+  make_sample_frame(a.target, f->warp.ox, f->warp.oy, &f->sample);
   return true;
 }
 
@@ -17951,9 +17908,10 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
   const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
                mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
-  // Behind a lens the target is the plane z = 1, around m0.
-  const double fx = a.lens ? 1 : a.target_camera[0], fy = a.lens ? 1 : a.target_camera[1];
-  const double cx = a.lens ? -a.lens->m0[0] : a.target_camera[2], cy = a.lens ? -a.lens->m0[1] : a.target_camera[3];
+  f->lens.on = false;
+  if (a.lens && !make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens)) return false;
+  const double* camera = a.lens ? f->lens.camera : a.target_camera;
+  const double fx = camera[0], fy = camera[1], cx = camera[2], cy = camera[3];
   const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
   const double G[9] = {fx * (h0 * ifx) + cx * s6,
                        fx * (h1 * ify) + cx * s7,
@@ -18026,34 +17984,44 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
     inside = inside && corners_inside(f, sample, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
   return inside;
 }
-TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
-  enum : int { kAll = (int{kBorder} + kMostLanes - 1) / kMostLanes * kMostLanes };
-  const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
-  float u[kAll], v[kAll], x[kAll], y[kAll];
-  for (int k = 0; k < kAll; ++k) {
-    const int side = k / kBorderSide % 4;
-    const float along = static_cast<float>(k % kBorderSide) * (2.0F / static_cast<float>(kBorderSide)) - 1.0F;
-    u[k] = ru * (side == 0 ? along : side == 1 ? 1.0F : side == 2 ? -along : -1.0F);
-    v[k] = rv * (side == 0 ? -1.0F : side == 1 ? along : side == 2 ? 1.0F : -along);
+constexpr float kBorderX[kMostLanes] = {-1, -.5F, 0, .5F, 1, 1, 1, 1, 1, .5F, 0, -.5F, -1, -1, -1, -1};
+constexpr float kBorderY[kMostLanes] = {-1, -1, -1, -1, -1, -.5F, 0, .5F, 1, 1, 1, 1, 1, .5F, 0, -.5F};
+constexpr float kBetweenCorners[kMostLanes] = {0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1};
+TEXTPLANE_SIMD_INLINE void bound_border(float* p, float* low, float* high) noexcept {
+  p[0] = p[kMostLanes];
+  p[kMostLanes + 1] = p[1];
+  vf least = load(p + 1), most = least, bend = zero();
+  for (int k = 0; k < kMostLanes; k += kLanes) {
+    const vf here = load(p + 1 + k), turn = sub(add(load(p + k), load(p + 2 + k)), add(here, here));
+    least = min_(here, least);
+    most = max_(here, most);
+    bend = max_(mul(abs_(turn), load(kBetweenCorners + k)), bend);
   }
+  const float margin = 0.5F * reduce_max(bend);
+  *low = reduce_min(least) - margin;
+  *high = reduce_max(most) + margin;
+}
+TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
+  const vf ru = set1(bounds.x_high - f->warp.hx + 1e-3F), rv = set1(bounds.y_high - f->warp.hy + 1e-3F);
+  float x[kMostLanes + 2], y[kMostLanes + 2], *box = f->lens.box;
   const WarpVectors warp = broadcast_warp(f->warp);
-  float* box = f->lens.box;
   box[0] = box[1] = 1;
   box[2] = box[3] = -1;
-  for (int k = 0; k < kAll; k += kLanes) {
-    const vf pu = load(u + k), pv = load(v + k);
+  for (int k = 0; k < kMostLanes; k += kLanes) {
+    const vf pu = mul(ru, load(kBorderX + k)), pv = mul(rv, load(kBorderY + k));
     const vf z = madd(warp.g6, pu, madd(warp.g7, pv, warp.g8)), inverse = div(set1(1.0F), z);
     const vf rho = madd(set1(f->rho[0]), pu, madd(set1(f->rho[1]), pv, set1(f->rho[2])));
     const vf px = mul(madd(warp.g0, pu, madd(warp.g1, pv, warp.g2)), inverse),
              py = mul(madd(warp.g3, pu, madd(warp.g4, pv, warp.g5)), inverse);
     vf at_x, at_y;
     lens_or_outside(f->lens, px, py, &at_x, &at_y);
-    store(x + k, at_x);
-    store(y + k, at_y);
+    store(x + 1 + k, at_x);
+    store(y + 1 + k, at_y);
     const vm ahead = and_(gt(z, set1(1e-3F)), gt(rho, mul(set1(1e-6F), abs_(set1(f->rho[2])))));
     if (!all_true(and_(ahead, gt(at_x, set1(-1e8F))))) return;
   }
-  bound_border(x, y, box);
+  bound_border(x, &box[0], &box[2]);
+  bound_border(y, &box[1], &box[3]);
 }
 TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, double h4, double h5, double h6,
                                   double h7, double h8, const double* p, ResidualFrame* f) noexcept {
@@ -18079,19 +18047,10 @@ TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, do
 }
 TEXTPLANE_SIMD_INLINE bool make_target(const simd::ResidualArgs& a, const double* G, float hx, float hy,
                                        ResidualFrame* f) noexcept {
-  f->lens.on = false;
-  if (!a.lens) {
-    if (!make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp)) return false;
-    f->ox = f->warp.ox;
-    f->oy = f->warp.oy;
-  } else {
-    if (!make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens) ||
-        !make_warp_around(G, hx, hy, 0, 0, &f->warp))
-      return false;
-    f->ox = f->lens.ox;
-    f->oy = f->lens.oy;
-  }
-  make_sample_frame(a.target, f->ox, f->oy, &f->sample);
+  if (f->lens.on ? !make_warp_around(G, hx, hy, f->lens.ox, f->lens.oy, &f->warp)
+                 : !make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp))
+    return false;
+  make_sample_frame(a.target, f->warp.ox, f->warp.oy, &f->sample);
   return true;
 }
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
@@ -18107,8 +18066,10 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
   const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
                mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
-  const double fx = a.lens ? 1 : a.target_camera[0], fy = a.lens ? 1 : a.target_camera[1];
-  const double cx = a.lens ? -a.lens->m0[0] : a.target_camera[2], cy = a.lens ? -a.lens->m0[1] : a.target_camera[3];
+  f->lens.on = false;
+  if (a.lens && !make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens)) return false;
+  const double* camera = a.lens ? f->lens.camera : a.target_camera;
+  const double fx = camera[0], fy = camera[1], cx = camera[2], cy = camera[3];
   const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
   const double G[9] = {fx * (h0 * ifx) + cx * s6,
                        fx * (h1 * ify) + cx * s7,
@@ -18180,34 +18141,44 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
     inside = inside && corners_inside(f, sample, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
   return inside;
 }
-TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
-  enum : int { kAll = (int{kBorder} + kMostLanes - 1) / kMostLanes * kMostLanes };
-  const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
-  float u[kAll], v[kAll], x[kAll], y[kAll];
-  for (int k = 0; k < kAll; ++k) {
-    const int side = k / kBorderSide % 4;
-    const float along = static_cast<float>(k % kBorderSide) * (2.0F / static_cast<float>(kBorderSide)) - 1.0F;
-    u[k] = ru * (side == 0 ? along : side == 1 ? 1.0F : side == 2 ? -along : -1.0F);
-    v[k] = rv * (side == 0 ? -1.0F : side == 1 ? along : side == 2 ? 1.0F : -along);
+constexpr float kBorderX[kMostLanes] = {-1, -.5F, 0, .5F, 1, 1, 1, 1, 1, .5F, 0, -.5F, -1, -1, -1, -1};
+constexpr float kBorderY[kMostLanes] = {-1, -1, -1, -1, -1, -.5F, 0, .5F, 1, 1, 1, 1, 1, .5F, 0, -.5F};
+constexpr float kBetweenCorners[kMostLanes] = {0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1};
+TEXTPLANE_SIMD_INLINE void bound_border(float* p, float* low, float* high) noexcept {
+  p[0] = p[kMostLanes];
+  p[kMostLanes + 1] = p[1];
+  vf least = load(p + 1), most = least, bend = zero();
+  for (int k = 0; k < kMostLanes; k += kLanes) {
+    const vf here = load(p + 1 + k), turn = sub(add(load(p + k), load(p + 2 + k)), add(here, here));
+    least = min_(here, least);
+    most = max_(here, most);
+    bend = max_(mul(abs_(turn), load(kBetweenCorners + k)), bend);
   }
+  const float margin = 0.5F * reduce_max(bend);
+  *low = reduce_min(least) - margin;
+  *high = reduce_max(most) + margin;
+}
+TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
+  const vf ru = set1(bounds.x_high - f->warp.hx + 1e-3F), rv = set1(bounds.y_high - f->warp.hy + 1e-3F);
+  float x[kMostLanes + 2], y[kMostLanes + 2], *box = f->lens.box;
   const WarpVectors warp = broadcast_warp(f->warp);
-  float* box = f->lens.box;
   box[0] = box[1] = 1;
   box[2] = box[3] = -1;
-  for (int k = 0; k < kAll; k += kLanes) {
-    const vf pu = load(u + k), pv = load(v + k);
+  for (int k = 0; k < kMostLanes; k += kLanes) {
+    const vf pu = mul(ru, load(kBorderX + k)), pv = mul(rv, load(kBorderY + k));
     const vf z = madd(warp.g6, pu, madd(warp.g7, pv, warp.g8)), inverse = div(set1(1.0F), z);
     const vf rho = madd(set1(f->rho[0]), pu, madd(set1(f->rho[1]), pv, set1(f->rho[2])));
     const vf px = mul(madd(warp.g0, pu, madd(warp.g1, pv, warp.g2)), inverse),
              py = mul(madd(warp.g3, pu, madd(warp.g4, pv, warp.g5)), inverse);
     vf at_x, at_y;
     lens_or_outside(f->lens, px, py, &at_x, &at_y);
-    store(x + k, at_x);
-    store(y + k, at_y);
+    store(x + 1 + k, at_x);
+    store(y + 1 + k, at_y);
     const vm ahead = and_(gt(z, set1(1e-3F)), gt(rho, mul(set1(1e-6F), abs_(set1(f->rho[2])))));
     if (!all_true(and_(ahead, gt(at_x, set1(-1e8F))))) return;
   }
-  bound_border(x, y, box);
+  bound_border(x, &box[0], &box[2]);
+  bound_border(y, &box[1], &box[3]);
 }
 TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, double h4, double h5, double h6,
                                   double h7, double h8, const double* p, ResidualFrame* f) noexcept {
@@ -18233,19 +18204,10 @@ TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, do
 }
 TEXTPLANE_SIMD_INLINE bool make_target(const simd::ResidualArgs& a, const double* G, float hx, float hy,
                                        ResidualFrame* f) noexcept {
-  f->lens.on = false;
-  if (!a.lens) {
-    if (!make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp)) return false;
-    f->ox = f->warp.ox;
-    f->oy = f->warp.oy;
-  } else {
-    if (!make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens) ||
-        !make_warp_around(G, hx, hy, 0, 0, &f->warp))
-      return false;
-    f->ox = f->lens.ox;
-    f->oy = f->lens.oy;
-  }
-  make_sample_frame(a.target, f->ox, f->oy, &f->sample);
+  if (f->lens.on ? !make_warp_around(G, hx, hy, f->lens.ox, f->lens.oy, &f->warp)
+                 : !make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp))
+    return false;
+  make_sample_frame(a.target, f->warp.ox, f->warp.oy, &f->sample);
   return true;
 }
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
@@ -18261,8 +18223,10 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
   const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
                mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
-  const double fx = a.lens ? 1 : a.target_camera[0], fy = a.lens ? 1 : a.target_camera[1];
-  const double cx = a.lens ? -a.lens->m0[0] : a.target_camera[2], cy = a.lens ? -a.lens->m0[1] : a.target_camera[3];
+  f->lens.on = false;
+  if (a.lens && !make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens)) return false;
+  const double* camera = a.lens ? f->lens.camera : a.target_camera;
+  const double fx = camera[0], fy = camera[1], cx = camera[2], cy = camera[3];
   const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
   const double G[9] = {fx * (h0 * ifx) + cx * s6,
                        fx * (h1 * ify) + cx * s7,
@@ -18334,34 +18298,44 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
     inside = inside && corners_inside(f, sample, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
   return inside;
 }
-TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
-  enum : int { kAll = (int{kBorder} + kMostLanes - 1) / kMostLanes * kMostLanes };
-  const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
-  float u[kAll], v[kAll], x[kAll], y[kAll];
-  for (int k = 0; k < kAll; ++k) {
-    const int side = k / kBorderSide % 4;
-    const float along = static_cast<float>(k % kBorderSide) * (2.0F / static_cast<float>(kBorderSide)) - 1.0F;
-    u[k] = ru * (side == 0 ? along : side == 1 ? 1.0F : side == 2 ? -along : -1.0F);
-    v[k] = rv * (side == 0 ? -1.0F : side == 1 ? along : side == 2 ? 1.0F : -along);
+constexpr float kBorderX[kMostLanes] = {-1, -.5F, 0, .5F, 1, 1, 1, 1, 1, .5F, 0, -.5F, -1, -1, -1, -1};
+constexpr float kBorderY[kMostLanes] = {-1, -1, -1, -1, -1, -.5F, 0, .5F, 1, 1, 1, 1, 1, .5F, 0, -.5F};
+constexpr float kBetweenCorners[kMostLanes] = {0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1};
+TEXTPLANE_SIMD_INLINE void bound_border(float* p, float* low, float* high) noexcept {
+  p[0] = p[kMostLanes];
+  p[kMostLanes + 1] = p[1];
+  vf least = load(p + 1), most = least, bend = zero();
+  for (int k = 0; k < kMostLanes; k += kLanes) {
+    const vf here = load(p + 1 + k), turn = sub(add(load(p + k), load(p + 2 + k)), add(here, here));
+    least = min_(here, least);
+    most = max_(here, most);
+    bend = max_(mul(abs_(turn), load(kBetweenCorners + k)), bend);
   }
+  const float margin = 0.5F * reduce_max(bend);
+  *low = reduce_min(least) - margin;
+  *high = reduce_max(most) + margin;
+}
+TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
+  const vf ru = set1(bounds.x_high - f->warp.hx + 1e-3F), rv = set1(bounds.y_high - f->warp.hy + 1e-3F);
+  float x[kMostLanes + 2], y[kMostLanes + 2], *box = f->lens.box;
   const WarpVectors warp = broadcast_warp(f->warp);
-  float* box = f->lens.box;
   box[0] = box[1] = 1;
   box[2] = box[3] = -1;
-  for (int k = 0; k < kAll; k += kLanes) {
-    const vf pu = load(u + k), pv = load(v + k);
+  for (int k = 0; k < kMostLanes; k += kLanes) {
+    const vf pu = mul(ru, load(kBorderX + k)), pv = mul(rv, load(kBorderY + k));
     const vf z = madd(warp.g6, pu, madd(warp.g7, pv, warp.g8)), inverse = div(set1(1.0F), z);
     const vf rho = madd(set1(f->rho[0]), pu, madd(set1(f->rho[1]), pv, set1(f->rho[2])));
     const vf px = mul(madd(warp.g0, pu, madd(warp.g1, pv, warp.g2)), inverse),
              py = mul(madd(warp.g3, pu, madd(warp.g4, pv, warp.g5)), inverse);
     vf at_x, at_y;
     lens_or_outside(f->lens, px, py, &at_x, &at_y);
-    store(x + k, at_x);
-    store(y + k, at_y);
+    store(x + 1 + k, at_x);
+    store(y + 1 + k, at_y);
     const vm ahead = and_(gt(z, set1(1e-3F)), gt(rho, mul(set1(1e-6F), abs_(set1(f->rho[2])))));
     if (!all_true(and_(ahead, gt(at_x, set1(-1e8F))))) return;
   }
-  bound_border(x, y, box);
+  bound_border(x, &box[0], &box[2]);
+  bound_border(y, &box[1], &box[3]);
 }
 TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, double h4, double h5, double h6,
                                   double h7, double h8, const double* p, ResidualFrame* f) noexcept {
@@ -18387,19 +18361,10 @@ TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, do
 }
 TEXTPLANE_SIMD_INLINE bool make_target(const simd::ResidualArgs& a, const double* G, float hx, float hy,
                                        ResidualFrame* f) noexcept {
-  f->lens.on = false;
-  if (!a.lens) {
-    if (!make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp)) return false;
-    f->ox = f->warp.ox;
-    f->oy = f->warp.oy;
-  } else {
-    if (!make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens) ||
-        !make_warp_around(G, hx, hy, 0, 0, &f->warp))
-      return false;
-    f->ox = f->lens.ox;
-    f->oy = f->lens.oy;
-  }
-  make_sample_frame(a.target, f->ox, f->oy, &f->sample);
+  if (f->lens.on ? !make_warp_around(G, hx, hy, f->lens.ox, f->lens.oy, &f->warp)
+                 : !make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp))
+    return false;
+  make_sample_frame(a.target, f->warp.ox, f->warp.oy, &f->sample);
   return true;
 }
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
@@ -18415,8 +18380,10 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
   const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
                mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
-  const double fx = a.lens ? 1 : a.target_camera[0], fy = a.lens ? 1 : a.target_camera[1];
-  const double cx = a.lens ? -a.lens->m0[0] : a.target_camera[2], cy = a.lens ? -a.lens->m0[1] : a.target_camera[3];
+  f->lens.on = false;
+  if (a.lens && !make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens)) return false;
+  const double* camera = a.lens ? f->lens.camera : a.target_camera;
+  const double fx = camera[0], fy = camera[1], cx = camera[2], cy = camera[3];
   const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
   const double G[9] = {fx * (h0 * ifx) + cx * s6,
                        fx * (h1 * ify) + cx * s7,
@@ -18488,34 +18455,44 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
     inside = inside && corners_inside(f, sample, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
   return inside;
 }
-TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
-  enum : int { kAll = (int{kBorder} + kMostLanes - 1) / kMostLanes * kMostLanes };
-  const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
-  float u[kAll], v[kAll], x[kAll], y[kAll];
-  for (int k = 0; k < kAll; ++k) {
-    const int side = k / kBorderSide % 4;
-    const float along = static_cast<float>(k % kBorderSide) * (2.0F / static_cast<float>(kBorderSide)) - 1.0F;
-    u[k] = ru * (side == 0 ? along : side == 1 ? 1.0F : side == 2 ? -along : -1.0F);
-    v[k] = rv * (side == 0 ? -1.0F : side == 1 ? along : side == 2 ? 1.0F : -along);
+constexpr float kBorderX[kMostLanes] = {-1, -.5F, 0, .5F, 1, 1, 1, 1, 1, .5F, 0, -.5F, -1, -1, -1, -1};
+constexpr float kBorderY[kMostLanes] = {-1, -1, -1, -1, -1, -.5F, 0, .5F, 1, 1, 1, 1, 1, .5F, 0, -.5F};
+constexpr float kBetweenCorners[kMostLanes] = {0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1};
+TEXTPLANE_SIMD_INLINE void bound_border(float* p, float* low, float* high) noexcept {
+  p[0] = p[kMostLanes];
+  p[kMostLanes + 1] = p[1];
+  vf least = load(p + 1), most = least, bend = zero();
+  for (int k = 0; k < kMostLanes; k += kLanes) {
+    const vf here = load(p + 1 + k), turn = sub(add(load(p + k), load(p + 2 + k)), add(here, here));
+    least = min_(here, least);
+    most = max_(here, most);
+    bend = max_(mul(abs_(turn), load(kBetweenCorners + k)), bend);
   }
+  const float margin = 0.5F * reduce_max(bend);
+  *low = reduce_min(least) - margin;
+  *high = reduce_max(most) + margin;
+}
+TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
+  const vf ru = set1(bounds.x_high - f->warp.hx + 1e-3F), rv = set1(bounds.y_high - f->warp.hy + 1e-3F);
+  float x[kMostLanes + 2], y[kMostLanes + 2], *box = f->lens.box;
   const WarpVectors warp = broadcast_warp(f->warp);
-  float* box = f->lens.box;
   box[0] = box[1] = 1;
   box[2] = box[3] = -1;
-  for (int k = 0; k < kAll; k += kLanes) {
-    const vf pu = load(u + k), pv = load(v + k);
+  for (int k = 0; k < kMostLanes; k += kLanes) {
+    const vf pu = mul(ru, load(kBorderX + k)), pv = mul(rv, load(kBorderY + k));
     const vf z = madd(warp.g6, pu, madd(warp.g7, pv, warp.g8)), inverse = div(set1(1.0F), z);
     const vf rho = madd(set1(f->rho[0]), pu, madd(set1(f->rho[1]), pv, set1(f->rho[2])));
     const vf px = mul(madd(warp.g0, pu, madd(warp.g1, pv, warp.g2)), inverse),
              py = mul(madd(warp.g3, pu, madd(warp.g4, pv, warp.g5)), inverse);
     vf at_x, at_y;
     lens_or_outside(f->lens, px, py, &at_x, &at_y);
-    store(x + k, at_x);
-    store(y + k, at_y);
+    store(x + 1 + k, at_x);
+    store(y + 1 + k, at_y);
     const vm ahead = and_(gt(z, set1(1e-3F)), gt(rho, mul(set1(1e-6F), abs_(set1(f->rho[2])))));
     if (!all_true(and_(ahead, gt(at_x, set1(-1e8F))))) return;
   }
-  bound_border(x, y, box);
+  bound_border(x, &box[0], &box[2]);
+  bound_border(y, &box[1], &box[3]);
 }
 TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, double h4, double h5, double h6,
                                   double h7, double h8, const double* p, ResidualFrame* f) noexcept {
@@ -18541,19 +18518,10 @@ TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, do
 }
 TEXTPLANE_SIMD_INLINE bool make_target(const simd::ResidualArgs& a, const double* G, float hx, float hy,
                                        ResidualFrame* f) noexcept {
-  f->lens.on = false;
-  if (!a.lens) {
-    if (!make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp)) return false;
-    f->ox = f->warp.ox;
-    f->oy = f->warp.oy;
-  } else {
-    if (!make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens) ||
-        !make_warp_around(G, hx, hy, 0, 0, &f->warp))
-      return false;
-    f->ox = f->lens.ox;
-    f->oy = f->lens.oy;
-  }
-  make_sample_frame(a.target, f->ox, f->oy, &f->sample);
+  if (f->lens.on ? !make_warp_around(G, hx, hy, f->lens.ox, f->lens.oy, &f->warp)
+                 : !make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp))
+    return false;
+  make_sample_frame(a.target, f->warp.ox, f->warp.oy, &f->sample);
   return true;
 }
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
@@ -18569,8 +18537,10 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
   const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
                mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
-  const double fx = a.lens ? 1 : a.target_camera[0], fy = a.lens ? 1 : a.target_camera[1];
-  const double cx = a.lens ? -a.lens->m0[0] : a.target_camera[2], cy = a.lens ? -a.lens->m0[1] : a.target_camera[3];
+  f->lens.on = false;
+  if (a.lens && !make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens)) return false;
+  const double* camera = a.lens ? f->lens.camera : a.target_camera;
+  const double fx = camera[0], fy = camera[1], cx = camera[2], cy = camera[3];
   const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
   const double G[9] = {fx * (h0 * ifx) + cx * s6,
                        fx * (h1 * ify) + cx * s7,
@@ -18642,34 +18612,44 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
     inside = inside && corners_inside(f, sample, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
   return inside;
 }
-TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
-  enum : int { kAll = (int{kBorder} + kMostLanes - 1) / kMostLanes * kMostLanes };
-  const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
-  float u[kAll], v[kAll], x[kAll], y[kAll];
-  for (int k = 0; k < kAll; ++k) {
-    const int side = k / kBorderSide % 4;
-    const float along = static_cast<float>(k % kBorderSide) * (2.0F / static_cast<float>(kBorderSide)) - 1.0F;
-    u[k] = ru * (side == 0 ? along : side == 1 ? 1.0F : side == 2 ? -along : -1.0F);
-    v[k] = rv * (side == 0 ? -1.0F : side == 1 ? along : side == 2 ? 1.0F : -along);
+constexpr float kBorderX[kMostLanes] = {-1, -.5F, 0, .5F, 1, 1, 1, 1, 1, .5F, 0, -.5F, -1, -1, -1, -1};
+constexpr float kBorderY[kMostLanes] = {-1, -1, -1, -1, -1, -.5F, 0, .5F, 1, 1, 1, 1, 1, .5F, 0, -.5F};
+constexpr float kBetweenCorners[kMostLanes] = {0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1};
+TEXTPLANE_SIMD_INLINE void bound_border(float* p, float* low, float* high) noexcept {
+  p[0] = p[kMostLanes];
+  p[kMostLanes + 1] = p[1];
+  vf least = load(p + 1), most = least, bend = zero();
+  for (int k = 0; k < kMostLanes; k += kLanes) {
+    const vf here = load(p + 1 + k), turn = sub(add(load(p + k), load(p + 2 + k)), add(here, here));
+    least = min_(here, least);
+    most = max_(here, most);
+    bend = max_(mul(abs_(turn), load(kBetweenCorners + k)), bend);
   }
+  const float margin = 0.5F * reduce_max(bend);
+  *low = reduce_min(least) - margin;
+  *high = reduce_max(most) + margin;
+}
+TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
+  const vf ru = set1(bounds.x_high - f->warp.hx + 1e-3F), rv = set1(bounds.y_high - f->warp.hy + 1e-3F);
+  float x[kMostLanes + 2], y[kMostLanes + 2], *box = f->lens.box;
   const WarpVectors warp = broadcast_warp(f->warp);
-  float* box = f->lens.box;
   box[0] = box[1] = 1;
   box[2] = box[3] = -1;
-  for (int k = 0; k < kAll; k += kLanes) {
-    const vf pu = load(u + k), pv = load(v + k);
+  for (int k = 0; k < kMostLanes; k += kLanes) {
+    const vf pu = mul(ru, load(kBorderX + k)), pv = mul(rv, load(kBorderY + k));
     const vf z = madd(warp.g6, pu, madd(warp.g7, pv, warp.g8)), inverse = div(set1(1.0F), z);
     const vf rho = madd(set1(f->rho[0]), pu, madd(set1(f->rho[1]), pv, set1(f->rho[2])));
     const vf px = mul(madd(warp.g0, pu, madd(warp.g1, pv, warp.g2)), inverse),
              py = mul(madd(warp.g3, pu, madd(warp.g4, pv, warp.g5)), inverse);
     vf at_x, at_y;
     lens_or_outside(f->lens, px, py, &at_x, &at_y);
-    store(x + k, at_x);
-    store(y + k, at_y);
+    store(x + 1 + k, at_x);
+    store(y + 1 + k, at_y);
     const vm ahead = and_(gt(z, set1(1e-3F)), gt(rho, mul(set1(1e-6F), abs_(set1(f->rho[2])))));
     if (!all_true(and_(ahead, gt(at_x, set1(-1e8F))))) return;
   }
-  bound_border(x, y, box);
+  bound_border(x, &box[0], &box[2]);
+  bound_border(y, &box[1], &box[3]);
 }
 TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, double h4, double h5, double h6,
                                   double h7, double h8, const double* p, ResidualFrame* f) noexcept {
@@ -18695,19 +18675,10 @@ TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, do
 }
 TEXTPLANE_SIMD_INLINE bool make_target(const simd::ResidualArgs& a, const double* G, float hx, float hy,
                                        ResidualFrame* f) noexcept {
-  f->lens.on = false;
-  if (!a.lens) {
-    if (!make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp)) return false;
-    f->ox = f->warp.ox;
-    f->oy = f->warp.oy;
-  } else {
-    if (!make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens) ||
-        !make_warp_around(G, hx, hy, 0, 0, &f->warp))
-      return false;
-    f->ox = f->lens.ox;
-    f->oy = f->lens.oy;
-  }
-  make_sample_frame(a.target, f->ox, f->oy, &f->sample);
+  if (f->lens.on ? !make_warp_around(G, hx, hy, f->lens.ox, f->lens.oy, &f->warp)
+                 : !make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp))
+    return false;
+  make_sample_frame(a.target, f->warp.ox, f->warp.oy, &f->sample);
   return true;
 }
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
@@ -18723,8 +18694,10 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
   const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
                mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
-  const double fx = a.lens ? 1 : a.target_camera[0], fy = a.lens ? 1 : a.target_camera[1];
-  const double cx = a.lens ? -a.lens->m0[0] : a.target_camera[2], cy = a.lens ? -a.lens->m0[1] : a.target_camera[3];
+  f->lens.on = false;
+  if (a.lens && !make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens)) return false;
+  const double* camera = a.lens ? f->lens.camera : a.target_camera;
+  const double fx = camera[0], fy = camera[1], cx = camera[2], cy = camera[3];
   const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
   const double G[9] = {fx * (h0 * ifx) + cx * s6,
                        fx * (h1 * ify) + cx * s7,
@@ -18914,7 +18887,7 @@ TEXTPLANE_SIMD_ENTRY void choose_tiles(const simd::ResidualArgs& a, const simd::
   if (f->lens.on) lens_turn(f->lens, &a0, &b0, &c0, &d0);
   const TileGuess guess = guess_tiles(host.x, host.y, host.n, a0, b0, c0, d0);
   const simd::Image8& t = a.target;
-  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->ox, f->oy, &f->tiles)) return;
+  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->warp.ox, f->warp.oy, &f->tiles)) return;
   SampleFrame inner = f->sample;
   inner.x_last = static_cast<float>(f->tiles.x_high);
   inner.y_last = static_cast<float>(f->tiles.y_high);
@@ -19122,7 +19095,7 @@ TEXTPLANE_SIMD_ENTRY void choose_tiles(const simd::ResidualArgs& a, const simd::
   if (f->lens.on) lens_turn(f->lens, &a0, &b0, &c0, &d0);
   const TileGuess guess = guess_tiles(host.x, host.y, host.n, a0, b0, c0, d0);
   const simd::Image8& t = a.target;
-  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->ox, f->oy, &f->tiles)) return;
+  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->warp.ox, f->warp.oy, &f->tiles)) return;
   SampleFrame inner = f->sample;
   inner.x_last = static_cast<float>(f->tiles.x_high);
   inner.y_last = static_cast<float>(f->tiles.y_high);
@@ -19321,7 +19294,7 @@ TEXTPLANE_SIMD_ENTRY void choose_tiles(const simd::ResidualArgs& a, const simd::
   if (f->lens.on) lens_turn(f->lens, &a0, &b0, &c0, &d0);
   const TileGuess guess = guess_tiles(host.x, host.y, host.n, a0, b0, c0, d0);
   const simd::Image8& t = a.target;
-  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->ox, f->oy, &f->tiles)) return;
+  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->warp.ox, f->warp.oy, &f->tiles)) return;
   SampleFrame inner = f->sample;
   inner.x_last = static_cast<float>(f->tiles.x_high);
   inner.y_last = static_cast<float>(f->tiles.y_high);
@@ -19520,7 +19493,7 @@ TEXTPLANE_SIMD_ENTRY void choose_tiles(const simd::ResidualArgs& a, const simd::
   if (f->lens.on) lens_turn(f->lens, &a0, &b0, &c0, &d0);
   const TileGuess guess = guess_tiles(host.x, host.y, host.n, a0, b0, c0, d0);
   const simd::Image8& t = a.target;
-  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->ox, f->oy, &f->tiles)) return;
+  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->warp.ox, f->warp.oy, &f->tiles)) return;
   SampleFrame inner = f->sample;
   inner.x_last = static_cast<float>(f->tiles.x_high);
   inner.y_last = static_cast<float>(f->tiles.y_high);
@@ -19719,7 +19692,7 @@ TEXTPLANE_SIMD_ENTRY void choose_tiles(const simd::ResidualArgs& a, const simd::
   if (f->lens.on) lens_turn(f->lens, &a0, &b0, &c0, &d0);
   const TileGuess guess = guess_tiles(host.x, host.y, host.n, a0, b0, c0, d0);
   const simd::Image8& t = a.target;
-  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->ox, f->oy, &f->tiles)) return;
+  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->warp.ox, f->warp.oy, &f->tiles)) return;
   SampleFrame inner = f->sample;
   inner.x_last = static_cast<float>(f->tiles.x_high);
   inner.y_last = static_cast<float>(f->tiles.y_high);
@@ -19918,7 +19891,7 @@ TEXTPLANE_SIMD_ENTRY void choose_tiles(const simd::ResidualArgs& a, const simd::
   if (f->lens.on) lens_turn(f->lens, &a0, &b0, &c0, &d0);
   const TileGuess guess = guess_tiles(host.x, host.y, host.n, a0, b0, c0, d0);
   const simd::Image8& t = a.target;
-  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->ox, f->oy, &f->tiles)) return;
+  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->warp.ox, f->warp.oy, &f->tiles)) return;
   SampleFrame inner = f->sample;
   inner.x_last = static_cast<float>(f->tiles.x_high);
   inner.y_last = static_cast<float>(f->tiles.y_high);
@@ -29035,17 +29008,20 @@ TEXTPLANE_DEFERRED
 inline bool ray_box(const simd::PointBounds& bounds, const Pinhole<double>& host, const FixedMatrix<double, 3, 3>& H,
                     RayBox* out) noexcept {
   if (bounds.n < 1) return false;
-  const double x[2] = {static_cast<double>(bounds.x_low) - 1, static_cast<double>(bounds.x_high) + 1};
-  const double y[2] = {static_cast<double>(bounds.y_low) - 1, static_cast<double>(bounds.y_high) + 1};
+  const Vector3<double> low =
+      host.unproject({static_cast<double>(bounds.x_low) - 1, static_cast<double>(bounds.y_low) - 1});
+  const Vector3<double> high =
+      host.unproject({static_cast<double>(bounds.x_high) + 1, static_cast<double>(bounds.y_high) + 1});
+  const double x[2] = {low[0], high[0]}, y[2] = {low[1], high[1]};
   for (int corner = 0; corner < 5; ++corner) {
-    const Vector2<double> px = corner < 4 ? Vector2<double>(x[corner & 1], y[corner >> 1])
-                                          : Vector2<double>(0.5 * (x[0] + x[1]), 0.5 * (y[0] + y[1]));
+    const double u = corner < 4 ? x[corner & 1] : 0.5 * (x[0] + x[1]),
+                 v = corner < 4 ? y[corner >> 1] : 0.5 * (y[0] + y[1]);
     // Written out: Eigen's product is a function that files built for other CPUs would share.
-    const Vector3<double> ray = host.unproject(px);
     double q[3];
-    for (int k = 0; k < 3; ++k) q[k] = H(k, 0) * ray[0] + H(k, 1) * ray[1] + H(k, 2) * ray[2];
+    for (int k = 0; k < 3; ++k) q[k] = H(k, 0) * u + H(k, 1) * v + H(k, 2);
     if (!(q[2] > 0)) return false;
-    const Vector2<double> m(q[0] / q[2], q[1] / q[2]);
+    const double inverse = 1 / q[2];
+    const Vector2<double> m(q[0] * inverse, q[1] * inverse);
     if (corner == 4) {
       out->middle = m;
     } else {
@@ -29686,14 +29662,14 @@ inline bool take_info(const simd::ResidualInfo& info, int min_visible, ResidualS
   return true;
 }
 
-/// Sets args->lens to `fit` where the request's target has a lens. False where no fit holds it, and the reference must
-/// take the call.
+/// Sets args->lens to `fit`, and args->bounds, which the kernels then need not find again. False where no fit holds the
+/// lens, and the reference must take the call.
 TEXTPLANE_DEFERRED
 inline bool fit_request(const KernelRequest& q, simd::ResidualArgs* args, simd::LensFit* fit) noexcept {
   const PatchView& p = q.input.patch;
-  const simd::PointBounds bounds = p.bounds.n == p.n ? p.bounds : simd::point_bounds(p.x, p.y, p.n);
+  if (p.bounds.n != p.n) args->bounds = simd::point_bounds(p.x, p.y, p.n);
   RayBox box;
-  if (!ray_box(bounds, q.input.host_camera, plane_homography(q.theta, q.T_t_h), &box)) return false;
+  if (!ray_box(args->bounds, q.input.host_camera, plane_homography(q.theta, q.T_t_h), &box)) return false;
   args->lens = fit;
   return fit_lens(*q.input.lens, box, fit);
 }
@@ -41231,8 +41207,8 @@ TEXTPLANE_SIMD_INLINE bool template_origin(const ResidualFrame& f, double x_low,
   if (!(x_low > -60000.0 && y_low > -60000.0 && x_high - x_low < 60000.0 && y_high - y_low < 60000.0)) return false;
   *dx = static_cast<int>(x_low + 65536.0) - 65537;
   *dy = static_cast<int>(y_low + 65536.0) - 65537;
-  t->ox = f.ox + *dx;
-  t->oy = f.oy + *dy;
+  t->ox = f.warp.ox + *dx;
+  t->oy = f.warp.oy + *dy;
   return true;
 }
 TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd::TemplateArgs& t, double x_low,
@@ -41240,8 +41216,8 @@ TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd
   // One pixel clear of the borders where a tile would leave the image, so that no cell is clamped.
   const simd::Image8& target = t.target;
   return make_tiles(target.data, target.stride, target.width, target.height, t.ox, t.oy, tiles) && !target.pairs &&
-         x_low + f.ox >= 1 && y_low + f.oy >= 1 && x_high + f.ox < target.width - 16 &&
-         y_high + f.oy < target.height - 3;
+         x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
+         y_high + f.warp.oy < target.height - 3;
 }
 
 // The warp with divisor 1 at the centre, and an origin above and to the left of all pixels. False where not all are
@@ -41280,7 +41256,7 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   return true;
 }
 
-// The same behind a lens: the warp to rays, and the lens relative to that origin.
+// The same behind a lens: the warp to the pinhole image, and the lens relative to that origin.
 TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, const ResidualFrame& f,
                                               simd::TemplateArgs* t, LensFrame* lens, ImageTiles* tiles) noexcept {
   if (!f.inside) return false;
@@ -41290,10 +41266,13 @@ TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, cons
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) t->g[k] = static_cast<float>(static_cast<double>(f.warp.g[k]) * scale);
+  for (int k = 0; k < 8; ++k) {
+    const double w = static_cast<double>(f.warp.g[6 + k % 3]);
+    const double g = static_cast<double>(f.warp.g[k]) - (k < 3 ? dx * w : k < 6 ? dy * w : 0.0);
+    t->g[k] = static_cast<float>(g * scale);
+  }
   *lens = f.lens;
-  lens->ax -= static_cast<float>(dx);
-  lens->ay -= static_cast<float>(dy);
+  move_lens_origin(dx, dy, lens);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     float a = k[0] - k[2] * k[6], b = k[1] - k[2] * k[7], c = k[3] - k[5] * k[6], d = k[4] - k[5] * k[7];
@@ -41497,16 +41476,16 @@ TEXTPLANE_SIMD_INLINE bool template_origin(const ResidualFrame& f, double x_low,
   if (!(x_low > -60000.0 && y_low > -60000.0 && x_high - x_low < 60000.0 && y_high - y_low < 60000.0)) return false;
   *dx = static_cast<int>(x_low + 65536.0) - 65537;
   *dy = static_cast<int>(y_low + 65536.0) - 65537;
-  t->ox = f.ox + *dx;
-  t->oy = f.oy + *dy;
+  t->ox = f.warp.ox + *dx;
+  t->oy = f.warp.oy + *dy;
   return true;
 }
 TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd::TemplateArgs& t, double x_low,
                                               double y_low, double x_high, double y_high, ImageTiles* tiles) noexcept {
   const simd::Image8& target = t.target;
   return make_tiles(target.data, target.stride, target.width, target.height, t.ox, t.oy, tiles) && !target.pairs &&
-         x_low + f.ox >= 1 && y_low + f.oy >= 1 && x_high + f.ox < target.width - 16 &&
-         y_high + f.oy < target.height - 3;
+         x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
+         y_high + f.warp.oy < target.height - 3;
 }
 TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
                                           ImageTiles* tiles) noexcept {
@@ -41550,10 +41529,13 @@ TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, cons
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) t->g[k] = static_cast<float>(static_cast<double>(f.warp.g[k]) * scale);
+  for (int k = 0; k < 8; ++k) {
+    const double w = static_cast<double>(f.warp.g[6 + k % 3]);
+    const double g = static_cast<double>(f.warp.g[k]) - (k < 3 ? dx * w : k < 6 ? dy * w : 0.0);
+    t->g[k] = static_cast<float>(g * scale);
+  }
   *lens = f.lens;
-  lens->ax -= static_cast<float>(dx);
-  lens->ay -= static_cast<float>(dy);
+  move_lens_origin(dx, dy, lens);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     float a = k[0] - k[2] * k[6], b = k[1] - k[2] * k[7], c = k[3] - k[5] * k[6], d = k[4] - k[5] * k[7];
@@ -41739,16 +41721,16 @@ TEXTPLANE_SIMD_INLINE bool template_origin(const ResidualFrame& f, double x_low,
   if (!(x_low > -60000.0 && y_low > -60000.0 && x_high - x_low < 60000.0 && y_high - y_low < 60000.0)) return false;
   *dx = static_cast<int>(x_low + 65536.0) - 65537;
   *dy = static_cast<int>(y_low + 65536.0) - 65537;
-  t->ox = f.ox + *dx;
-  t->oy = f.oy + *dy;
+  t->ox = f.warp.ox + *dx;
+  t->oy = f.warp.oy + *dy;
   return true;
 }
 TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd::TemplateArgs& t, double x_low,
                                               double y_low, double x_high, double y_high, ImageTiles* tiles) noexcept {
   const simd::Image8& target = t.target;
   return make_tiles(target.data, target.stride, target.width, target.height, t.ox, t.oy, tiles) && !target.pairs &&
-         x_low + f.ox >= 1 && y_low + f.oy >= 1 && x_high + f.ox < target.width - 16 &&
-         y_high + f.oy < target.height - 3;
+         x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
+         y_high + f.warp.oy < target.height - 3;
 }
 TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
                                           ImageTiles* tiles) noexcept {
@@ -41792,10 +41774,13 @@ TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, cons
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) t->g[k] = static_cast<float>(static_cast<double>(f.warp.g[k]) * scale);
+  for (int k = 0; k < 8; ++k) {
+    const double w = static_cast<double>(f.warp.g[6 + k % 3]);
+    const double g = static_cast<double>(f.warp.g[k]) - (k < 3 ? dx * w : k < 6 ? dy * w : 0.0);
+    t->g[k] = static_cast<float>(g * scale);
+  }
   *lens = f.lens;
-  lens->ax -= static_cast<float>(dx);
-  lens->ay -= static_cast<float>(dy);
+  move_lens_origin(dx, dy, lens);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     float a = k[0] - k[2] * k[6], b = k[1] - k[2] * k[7], c = k[3] - k[5] * k[6], d = k[4] - k[5] * k[7];
@@ -41981,16 +41966,16 @@ TEXTPLANE_SIMD_INLINE bool template_origin(const ResidualFrame& f, double x_low,
   if (!(x_low > -60000.0 && y_low > -60000.0 && x_high - x_low < 60000.0 && y_high - y_low < 60000.0)) return false;
   *dx = static_cast<int>(x_low + 65536.0) - 65537;
   *dy = static_cast<int>(y_low + 65536.0) - 65537;
-  t->ox = f.ox + *dx;
-  t->oy = f.oy + *dy;
+  t->ox = f.warp.ox + *dx;
+  t->oy = f.warp.oy + *dy;
   return true;
 }
 TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd::TemplateArgs& t, double x_low,
                                               double y_low, double x_high, double y_high, ImageTiles* tiles) noexcept {
   const simd::Image8& target = t.target;
   return make_tiles(target.data, target.stride, target.width, target.height, t.ox, t.oy, tiles) && !target.pairs &&
-         x_low + f.ox >= 1 && y_low + f.oy >= 1 && x_high + f.ox < target.width - 16 &&
-         y_high + f.oy < target.height - 3;
+         x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
+         y_high + f.warp.oy < target.height - 3;
 }
 TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
                                           ImageTiles* tiles) noexcept {
@@ -42034,10 +42019,13 @@ TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, cons
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) t->g[k] = static_cast<float>(static_cast<double>(f.warp.g[k]) * scale);
+  for (int k = 0; k < 8; ++k) {
+    const double w = static_cast<double>(f.warp.g[6 + k % 3]);
+    const double g = static_cast<double>(f.warp.g[k]) - (k < 3 ? dx * w : k < 6 ? dy * w : 0.0);
+    t->g[k] = static_cast<float>(g * scale);
+  }
   *lens = f.lens;
-  lens->ax -= static_cast<float>(dx);
-  lens->ay -= static_cast<float>(dy);
+  move_lens_origin(dx, dy, lens);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     float a = k[0] - k[2] * k[6], b = k[1] - k[2] * k[7], c = k[3] - k[5] * k[6], d = k[4] - k[5] * k[7];
@@ -42223,16 +42211,16 @@ TEXTPLANE_SIMD_INLINE bool template_origin(const ResidualFrame& f, double x_low,
   if (!(x_low > -60000.0 && y_low > -60000.0 && x_high - x_low < 60000.0 && y_high - y_low < 60000.0)) return false;
   *dx = static_cast<int>(x_low + 65536.0) - 65537;
   *dy = static_cast<int>(y_low + 65536.0) - 65537;
-  t->ox = f.ox + *dx;
-  t->oy = f.oy + *dy;
+  t->ox = f.warp.ox + *dx;
+  t->oy = f.warp.oy + *dy;
   return true;
 }
 TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd::TemplateArgs& t, double x_low,
                                               double y_low, double x_high, double y_high, ImageTiles* tiles) noexcept {
   const simd::Image8& target = t.target;
   return make_tiles(target.data, target.stride, target.width, target.height, t.ox, t.oy, tiles) && !target.pairs &&
-         x_low + f.ox >= 1 && y_low + f.oy >= 1 && x_high + f.ox < target.width - 16 &&
-         y_high + f.oy < target.height - 3;
+         x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
+         y_high + f.warp.oy < target.height - 3;
 }
 TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
                                           ImageTiles* tiles) noexcept {
@@ -42276,10 +42264,13 @@ TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, cons
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) t->g[k] = static_cast<float>(static_cast<double>(f.warp.g[k]) * scale);
+  for (int k = 0; k < 8; ++k) {
+    const double w = static_cast<double>(f.warp.g[6 + k % 3]);
+    const double g = static_cast<double>(f.warp.g[k]) - (k < 3 ? dx * w : k < 6 ? dy * w : 0.0);
+    t->g[k] = static_cast<float>(g * scale);
+  }
   *lens = f.lens;
-  lens->ax -= static_cast<float>(dx);
-  lens->ay -= static_cast<float>(dy);
+  move_lens_origin(dx, dy, lens);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     float a = k[0] - k[2] * k[6], b = k[1] - k[2] * k[7], c = k[3] - k[5] * k[6], d = k[4] - k[5] * k[7];
@@ -42465,16 +42456,16 @@ TEXTPLANE_SIMD_INLINE bool template_origin(const ResidualFrame& f, double x_low,
   if (!(x_low > -60000.0 && y_low > -60000.0 && x_high - x_low < 60000.0 && y_high - y_low < 60000.0)) return false;
   *dx = static_cast<int>(x_low + 65536.0) - 65537;
   *dy = static_cast<int>(y_low + 65536.0) - 65537;
-  t->ox = f.ox + *dx;
-  t->oy = f.oy + *dy;
+  t->ox = f.warp.ox + *dx;
+  t->oy = f.warp.oy + *dy;
   return true;
 }
 TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd::TemplateArgs& t, double x_low,
                                               double y_low, double x_high, double y_high, ImageTiles* tiles) noexcept {
   const simd::Image8& target = t.target;
   return make_tiles(target.data, target.stride, target.width, target.height, t.ox, t.oy, tiles) && !target.pairs &&
-         x_low + f.ox >= 1 && y_low + f.oy >= 1 && x_high + f.ox < target.width - 16 &&
-         y_high + f.oy < target.height - 3;
+         x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
+         y_high + f.warp.oy < target.height - 3;
 }
 TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
                                           ImageTiles* tiles) noexcept {
@@ -42518,10 +42509,13 @@ TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, cons
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) t->g[k] = static_cast<float>(static_cast<double>(f.warp.g[k]) * scale);
+  for (int k = 0; k < 8; ++k) {
+    const double w = static_cast<double>(f.warp.g[6 + k % 3]);
+    const double g = static_cast<double>(f.warp.g[k]) - (k < 3 ? dx * w : k < 6 ? dy * w : 0.0);
+    t->g[k] = static_cast<float>(g * scale);
+  }
   *lens = f.lens;
-  lens->ax -= static_cast<float>(dx);
-  lens->ay -= static_cast<float>(dy);
+  move_lens_origin(dx, dy, lens);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     float a = k[0] - k[2] * k[6], b = k[1] - k[2] * k[7], c = k[3] - k[5] * k[6], d = k[4] - k[5] * k[7];
@@ -46653,27 +46647,25 @@ TEXTPLANE_SIMD_INLINE int warp_lens_row(const simd::WarpLensArgs& a, const WarpV
 }
 
 TEXTPLANE_SIMD_ENTRY void warp_lens_block(const simd::WarpLensArgs& a, int* inside) noexcept {
-  // H to m - m0, around the block's middle.
-  const double* h = a.h;
+  LensFrame lens;
+  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens)) return;
+  // H to the pinhole image, around the block's middle.
+  const double *h = a.h, fx = lens.camera[0], fy = lens.camera[1], cx = lens.camera[2], cy = lens.camera[3];
   const float hx = static_cast<float>(a.x) + 0.5F * static_cast<float>(a.columns - 1),
               hy = static_cast<float>(a.y) + 0.5F * static_cast<float>(a.rows - 1);
-  const double u = static_cast<double>(hx), v = static_cast<double>(hy), x0 = a.lens->m0[0], y0 = a.lens->m0[1];
-  const double z = h[6] * u + h[7] * v + h[8];
-  const double g[9] = {h[0] - x0 * h[6],
-                       h[1] - x0 * h[7],
-                       h[0] * u + h[1] * v + h[2] - x0 * z,
-                       h[3] - y0 * h[6],
-                       h[4] - y0 * h[7],
-                       h[3] * u + h[4] * v + h[5] - y0 * z,
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy), z = h[6] * u + h[7] * v + h[8];
+  const double g[9] = {fx * h[0] + cx * h[6],
+                       fx * h[1] + cx * h[7],
+                       fx * (h[0] * u + h[1] * v + h[2]) + cx * z,
+                       fy * h[3] + cy * h[6],
+                       fy * h[4] + cy * h[7],
+                       fy * (h[3] * u + h[4] * v + h[5]) + cy * z,
                        h[6],
                        h[7],
                        z};
   simd::Warp8 warp;
-  LensFrame lens;
   SampleFrame f;
-  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens) ||
-      !make_warp_around(g, hx, hy, 0, 0, &warp))
-    return;
+  if (!make_warp_around(g, hx, hy, lens.ox, lens.oy, &warp)) return;
   make_sample_frame(a.source, lens.ox, lens.oy, &f);
   const WarpVectors vectors = broadcast_warp(warp);
   const bool paired = f.pairs != nullptr;
@@ -46733,26 +46725,24 @@ TEXTPLANE_SIMD_INLINE int warp_lens_row(const simd::WarpLensArgs& a, const WarpV
   return inside;
 }
 TEXTPLANE_SIMD_ENTRY void warp_lens_block(const simd::WarpLensArgs& a, int* inside) noexcept {
-  const double* h = a.h;
+  LensFrame lens;
+  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens)) return;
+  const double *h = a.h, fx = lens.camera[0], fy = lens.camera[1], cx = lens.camera[2], cy = lens.camera[3];
   const float hx = static_cast<float>(a.x) + 0.5F * static_cast<float>(a.columns - 1),
               hy = static_cast<float>(a.y) + 0.5F * static_cast<float>(a.rows - 1);
-  const double u = static_cast<double>(hx), v = static_cast<double>(hy), x0 = a.lens->m0[0], y0 = a.lens->m0[1];
-  const double z = h[6] * u + h[7] * v + h[8];
-  const double g[9] = {h[0] - x0 * h[6],
-                       h[1] - x0 * h[7],
-                       h[0] * u + h[1] * v + h[2] - x0 * z,
-                       h[3] - y0 * h[6],
-                       h[4] - y0 * h[7],
-                       h[3] * u + h[4] * v + h[5] - y0 * z,
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy), z = h[6] * u + h[7] * v + h[8];
+  const double g[9] = {fx * h[0] + cx * h[6],
+                       fx * h[1] + cx * h[7],
+                       fx * (h[0] * u + h[1] * v + h[2]) + cx * z,
+                       fy * h[3] + cy * h[6],
+                       fy * h[4] + cy * h[7],
+                       fy * (h[3] * u + h[4] * v + h[5]) + cy * z,
                        h[6],
                        h[7],
                        z};
   simd::Warp8 warp;
-  LensFrame lens;
   SampleFrame f;
-  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens) ||
-      !make_warp_around(g, hx, hy, 0, 0, &warp))
-    return;
+  if (!make_warp_around(g, hx, hy, lens.ox, lens.oy, &warp)) return;
   make_sample_frame(a.source, lens.ox, lens.oy, &f);
   const WarpVectors vectors = broadcast_warp(warp);
   const bool paired = f.pairs != nullptr;
@@ -46812,26 +46802,24 @@ TEXTPLANE_SIMD_INLINE int warp_lens_row(const simd::WarpLensArgs& a, const WarpV
   return inside;
 }
 TEXTPLANE_SIMD_ENTRY void warp_lens_block(const simd::WarpLensArgs& a, int* inside) noexcept {
-  const double* h = a.h;
+  LensFrame lens;
+  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens)) return;
+  const double *h = a.h, fx = lens.camera[0], fy = lens.camera[1], cx = lens.camera[2], cy = lens.camera[3];
   const float hx = static_cast<float>(a.x) + 0.5F * static_cast<float>(a.columns - 1),
               hy = static_cast<float>(a.y) + 0.5F * static_cast<float>(a.rows - 1);
-  const double u = static_cast<double>(hx), v = static_cast<double>(hy), x0 = a.lens->m0[0], y0 = a.lens->m0[1];
-  const double z = h[6] * u + h[7] * v + h[8];
-  const double g[9] = {h[0] - x0 * h[6],
-                       h[1] - x0 * h[7],
-                       h[0] * u + h[1] * v + h[2] - x0 * z,
-                       h[3] - y0 * h[6],
-                       h[4] - y0 * h[7],
-                       h[3] * u + h[4] * v + h[5] - y0 * z,
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy), z = h[6] * u + h[7] * v + h[8];
+  const double g[9] = {fx * h[0] + cx * h[6],
+                       fx * h[1] + cx * h[7],
+                       fx * (h[0] * u + h[1] * v + h[2]) + cx * z,
+                       fy * h[3] + cy * h[6],
+                       fy * h[4] + cy * h[7],
+                       fy * (h[3] * u + h[4] * v + h[5]) + cy * z,
                        h[6],
                        h[7],
                        z};
   simd::Warp8 warp;
-  LensFrame lens;
   SampleFrame f;
-  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens) ||
-      !make_warp_around(g, hx, hy, 0, 0, &warp))
-    return;
+  if (!make_warp_around(g, hx, hy, lens.ox, lens.oy, &warp)) return;
   make_sample_frame(a.source, lens.ox, lens.oy, &f);
   const WarpVectors vectors = broadcast_warp(warp);
   const bool paired = f.pairs != nullptr;
@@ -46891,26 +46879,24 @@ TEXTPLANE_SIMD_INLINE int warp_lens_row(const simd::WarpLensArgs& a, const WarpV
   return inside;
 }
 TEXTPLANE_SIMD_ENTRY void warp_lens_block(const simd::WarpLensArgs& a, int* inside) noexcept {
-  const double* h = a.h;
+  LensFrame lens;
+  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens)) return;
+  const double *h = a.h, fx = lens.camera[0], fy = lens.camera[1], cx = lens.camera[2], cy = lens.camera[3];
   const float hx = static_cast<float>(a.x) + 0.5F * static_cast<float>(a.columns - 1),
               hy = static_cast<float>(a.y) + 0.5F * static_cast<float>(a.rows - 1);
-  const double u = static_cast<double>(hx), v = static_cast<double>(hy), x0 = a.lens->m0[0], y0 = a.lens->m0[1];
-  const double z = h[6] * u + h[7] * v + h[8];
-  const double g[9] = {h[0] - x0 * h[6],
-                       h[1] - x0 * h[7],
-                       h[0] * u + h[1] * v + h[2] - x0 * z,
-                       h[3] - y0 * h[6],
-                       h[4] - y0 * h[7],
-                       h[3] * u + h[4] * v + h[5] - y0 * z,
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy), z = h[6] * u + h[7] * v + h[8];
+  const double g[9] = {fx * h[0] + cx * h[6],
+                       fx * h[1] + cx * h[7],
+                       fx * (h[0] * u + h[1] * v + h[2]) + cx * z,
+                       fy * h[3] + cy * h[6],
+                       fy * h[4] + cy * h[7],
+                       fy * (h[3] * u + h[4] * v + h[5]) + cy * z,
                        h[6],
                        h[7],
                        z};
   simd::Warp8 warp;
-  LensFrame lens;
   SampleFrame f;
-  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens) ||
-      !make_warp_around(g, hx, hy, 0, 0, &warp))
-    return;
+  if (!make_warp_around(g, hx, hy, lens.ox, lens.oy, &warp)) return;
   make_sample_frame(a.source, lens.ox, lens.oy, &f);
   const WarpVectors vectors = broadcast_warp(warp);
   const bool paired = f.pairs != nullptr;
@@ -46970,26 +46956,24 @@ TEXTPLANE_SIMD_INLINE int warp_lens_row(const simd::WarpLensArgs& a, const WarpV
   return inside;
 }
 TEXTPLANE_SIMD_ENTRY void warp_lens_block(const simd::WarpLensArgs& a, int* inside) noexcept {
-  const double* h = a.h;
+  LensFrame lens;
+  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens)) return;
+  const double *h = a.h, fx = lens.camera[0], fy = lens.camera[1], cx = lens.camera[2], cy = lens.camera[3];
   const float hx = static_cast<float>(a.x) + 0.5F * static_cast<float>(a.columns - 1),
               hy = static_cast<float>(a.y) + 0.5F * static_cast<float>(a.rows - 1);
-  const double u = static_cast<double>(hx), v = static_cast<double>(hy), x0 = a.lens->m0[0], y0 = a.lens->m0[1];
-  const double z = h[6] * u + h[7] * v + h[8];
-  const double g[9] = {h[0] - x0 * h[6],
-                       h[1] - x0 * h[7],
-                       h[0] * u + h[1] * v + h[2] - x0 * z,
-                       h[3] - y0 * h[6],
-                       h[4] - y0 * h[7],
-                       h[3] * u + h[4] * v + h[5] - y0 * z,
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy), z = h[6] * u + h[7] * v + h[8];
+  const double g[9] = {fx * h[0] + cx * h[6],
+                       fx * h[1] + cx * h[7],
+                       fx * (h[0] * u + h[1] * v + h[2]) + cx * z,
+                       fy * h[3] + cy * h[6],
+                       fy * h[4] + cy * h[7],
+                       fy * (h[3] * u + h[4] * v + h[5]) + cy * z,
                        h[6],
                        h[7],
                        z};
   simd::Warp8 warp;
-  LensFrame lens;
   SampleFrame f;
-  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens) ||
-      !make_warp_around(g, hx, hy, 0, 0, &warp))
-    return;
+  if (!make_warp_around(g, hx, hy, lens.ox, lens.oy, &warp)) return;
   make_sample_frame(a.source, lens.ox, lens.oy, &f);
   const WarpVectors vectors = broadcast_warp(warp);
   const bool paired = f.pairs != nullptr;
@@ -47049,26 +47033,24 @@ TEXTPLANE_SIMD_INLINE int warp_lens_row(const simd::WarpLensArgs& a, const WarpV
   return inside;
 }
 TEXTPLANE_SIMD_ENTRY void warp_lens_block(const simd::WarpLensArgs& a, int* inside) noexcept {
-  const double* h = a.h;
+  LensFrame lens;
+  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens)) return;
+  const double *h = a.h, fx = lens.camera[0], fy = lens.camera[1], cx = lens.camera[2], cy = lens.camera[3];
   const float hx = static_cast<float>(a.x) + 0.5F * static_cast<float>(a.columns - 1),
               hy = static_cast<float>(a.y) + 0.5F * static_cast<float>(a.rows - 1);
-  const double u = static_cast<double>(hx), v = static_cast<double>(hy), x0 = a.lens->m0[0], y0 = a.lens->m0[1];
-  const double z = h[6] * u + h[7] * v + h[8];
-  const double g[9] = {h[0] - x0 * h[6],
-                       h[1] - x0 * h[7],
-                       h[0] * u + h[1] * v + h[2] - x0 * z,
-                       h[3] - y0 * h[6],
-                       h[4] - y0 * h[7],
-                       h[3] * u + h[4] * v + h[5] - y0 * z,
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy), z = h[6] * u + h[7] * v + h[8];
+  const double g[9] = {fx * h[0] + cx * h[6],
+                       fx * h[1] + cx * h[7],
+                       fx * (h[0] * u + h[1] * v + h[2]) + cx * z,
+                       fy * h[3] + cy * h[6],
+                       fy * h[4] + cy * h[7],
+                       fy * (h[3] * u + h[4] * v + h[5]) + cy * z,
                        h[6],
                        h[7],
                        z};
   simd::Warp8 warp;
-  LensFrame lens;
   SampleFrame f;
-  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens) ||
-      !make_warp_around(g, hx, hy, 0, 0, &warp))
-    return;
+  if (!make_warp_around(g, hx, hy, lens.ox, lens.oy, &warp)) return;
   make_sample_frame(a.source, lens.ox, lens.oy, &f);
   const WarpVectors vectors = broadcast_warp(warp);
   const bool paired = f.pairs != nullptr;

@@ -45,9 +45,6 @@ EQUIVALENT = {
     ("simd/batch.hpp", "std::ptrdiff_t pose_step = 12, t_offset = 9;",
      "std::ptrdiff_t pose_step = 12, t_offset = 10;"):
         "TextBatch, its one user, sets it",
-    ("simd/kernels/lens.inl", "low = here < low ? here : low;",
-     "low = here <= low ? here : low;"):
-        "the same number where both are equal",
     ("simd/kernels/residual/batch.inl", "const int lanes = members - lane < kLanes ? members - lane : static_cast<int>(kLanes);",
      "const int lanes = members - lane <= kLanes ? members - lane : static_cast<int>(kLanes);"):
         "both are the number of members where they are equal",

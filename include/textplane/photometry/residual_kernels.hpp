@@ -88,14 +88,14 @@ inline bool take_info(const simd::ResidualInfo& info, int min_visible, ResidualS
   return true;
 }
 
-/// Sets args->lens to `fit` where the request's target has a lens. False where no fit holds it, and the reference must
-/// take the call.
+/// Sets args->lens to `fit`, and args->bounds, which the kernels then need not find again. False where no fit holds the
+/// lens, and the reference must take the call.
 TEXTPLANE_DEFERRED
 inline bool fit_request(const KernelRequest& q, simd::ResidualArgs* args, simd::LensFit* fit) noexcept {
   const PatchView& p = q.input.patch;
-  const simd::PointBounds bounds = p.bounds.n == p.n ? p.bounds : simd::point_bounds(p.x, p.y, p.n);
+  if (p.bounds.n != p.n) args->bounds = simd::point_bounds(p.x, p.y, p.n);
   RayBox box;
-  if (!ray_box(bounds, q.input.host_camera, plane_homography(q.theta, q.T_t_h), &box)) return false;
+  if (!ray_box(args->bounds, q.input.host_camera, plane_homography(q.theta, q.T_t_h), &box)) return false;
   args->lens = fit;
   return fit_lens(*q.input.lens, box, fit);
 }

@@ -4,10 +4,11 @@
 // pinhole's of m_d. Whatever the model, near one patch s is a polynomial in r^2: exactly for a radial-tangential lens,
 // and within 1e-6 px for others. So one kernel serves all models, and none evaluates an arc tangent or a root a pixel.
 //
-// Between warp and taps the kernels then add the lens step: positions relative to that of m0, so that their error grows
-// with the patch and not with the image, and the 2 x 2 derivative. Its transpose takes the image's gradient to the
-// pinhole image, where all that follows is as without a lens. Error of positions: 2e-5 px for patches of 128 px, twice
-// that without a lens; what residual.hpp and batch.hpp state of sums doubles with it.
+// Between warp and taps the kernels then add the lens step: what the lens changes of a pinhole image that agrees with
+// it at m0, so that the error grows with the patch and not with the image, and the 2 x 2 derivative. Its transpose
+// takes the image's gradient to the pinhole image, where all that follows is as without a lens. Error of positions:
+// 2e-5 px for patches of 128 px, twice that without a lens; what residual.hpp and batch.hpp state of sums doubles with
+// it.
 #ifndef TEXTPLANE_SIMD_LENS_HPP
 #define TEXTPLANE_SIMD_LENS_HPP
 
@@ -34,23 +35,25 @@ struct LensFit {
 }  // namespace simd
 
 namespace detail {
-// A fit for one image. Behind a lens the kernels' target is the plane z = 1: the positions of rows are m - m0, and
-// gradients are by m. Image positions are relative to (ox, oy). Factors of fx are in s, c, p.
+// A fit for one image. Behind a lens the kernels' target is a pinhole image: it has the scale of the lens at m0, and
+// shows m0 where the lens does. Positions of rows are its pixels e, relative to (ox, oy), and gradients are by e.
 struct LensFrame {
-  float mx, my, r0;                                    // m0, |m0|^2
-  float sx, sy, aspect;                                // fx and fy times the factor of m at m0; fy / fx
-  float ax, ay;                                        // image position of m0
-  float c[simd::kLensTerms], slope[simd::kLensTerms];  // of s less that at m0, by t, and of twice its derivative
-  float p1, p2, tx, ty;                                // 2 fx p; what the tangential part adds a unit of t
-  float t_low, t_high;
+  float x_scale, x_shift, y_scale, y_shift;  // m = scale e + shift
+  float r0, aspect;                          // |m0|^2; fy / fx
+  float c[simd::kLensTerms];                 // fx (s - s(m0)) = t (c[0] + t (c[1] + ...)), t = |m|^2 - |m0|^2
+  float slope[simd::kLensTerms];             // 2 x_scale times the derivative of that by t
+  float p1, p2, p0;                          // 2 fx (w - w(m0)) of the tangential part = p2 e_x + p1 e_y + p0
+  float tx, ty;                              // fx p2, fy p1: what it moves a unit of t
+  float t_low, t_high;                       // t beyond these has no pixel
+  float box[4];      // of the patch's image positions: x_low, y_low, x_high, y_high; empty where not all are in front
+  double camera[4];  // fx, fy, cx, cy of that pinhole image
   int terms;
-  bool tangential;
   int ox, oy;
-  float box[4];  // of the patch's image positions: x_low, y_low, x_high, y_high; empty where not all are in front
-  bool on;       // false: there is no lens, and nothing else is set
+  bool tangential;
+  bool on;  // false: there is no lens, and nothing else is set
 };
 
-// Between the loops over a strip: the factor of m in m_d, and the part of its gradient that is along m, a unit of m.
+// Between the loops over a strip: the factor of m in m_d, as a share of that at m0, and how it rises.
 struct LensStrip {
   float s[kStrip], slope[kStrip];
 };

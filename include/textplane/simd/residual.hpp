@@ -89,16 +89,16 @@ enum : int {
 
 // The geometry of one call. (c, d) is the target's principal point relative to the origin.
 struct ResidualFrame {
-  simd::Warp8 warp;    // to the image, or behind a lens to m - m0
+  simd::Warp8 warp;    // to the image, or behind a lens to its pinhole image; its origin is that of both
   SampleFrame sample;  // around (ox, oy)
   ImageTiles tiles;    // used where its guess is likely
   LensFrame lens;
-  int ox, oy;                     // origin of image positions; without a lens that of the warp
-  float rho[3];                   // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
-  double inverse[9];              // H^-1, row-major
-  double q[3];                    // theta^T H^-1
-  double c, d, fx, fy, ifx, ify;  // focal lengths of the target: of its image, or behind a lens 1; their inverses
-  bool inside;                    // if true, every pixel of the patch is visible
+  float rho[3];       // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
+  double inverse[9];  // H^-1, row-major
+  double q[3];        // theta^T H^-1
+  double c, d, fx, fy, ifx,
+      ify;      // focal lengths of the target, behind a lens those of its pinhole image; their inverses
+  bool inside;  // if true, every pixel of the patch is visible
 };
 
 // The caller's scratch: one array of each.

@@ -45,17 +45,20 @@ TEXTPLANE_DEFERRED
 inline bool ray_box(const simd::PointBounds& bounds, const Pinhole<double>& host, const FixedMatrix<double, 3, 3>& H,
                     RayBox* out) noexcept {
   if (bounds.n < 1) return false;
-  const double x[2] = {static_cast<double>(bounds.x_low) - 1, static_cast<double>(bounds.x_high) + 1};
-  const double y[2] = {static_cast<double>(bounds.y_low) - 1, static_cast<double>(bounds.y_high) + 1};
+  const Vector3<double> low =
+      host.unproject({static_cast<double>(bounds.x_low) - 1, static_cast<double>(bounds.y_low) - 1});
+  const Vector3<double> high =
+      host.unproject({static_cast<double>(bounds.x_high) + 1, static_cast<double>(bounds.y_high) + 1});
+  const double x[2] = {low[0], high[0]}, y[2] = {low[1], high[1]};
   for (int corner = 0; corner < 5; ++corner) {
-    const Vector2<double> px = corner < 4 ? Vector2<double>(x[corner & 1], y[corner >> 1])
-                                          : Vector2<double>(0.5 * (x[0] + x[1]), 0.5 * (y[0] + y[1]));
+    const double u = corner < 4 ? x[corner & 1] : 0.5 * (x[0] + x[1]),
+                 v = corner < 4 ? y[corner >> 1] : 0.5 * (y[0] + y[1]);
     // Written out: Eigen's product is a function that files built for other CPUs would share.
-    const Vector3<double> ray = host.unproject(px);
     double q[3];
-    for (int k = 0; k < 3; ++k) q[k] = H(k, 0) * ray[0] + H(k, 1) * ray[1] + H(k, 2) * ray[2];
+    for (int k = 0; k < 3; ++k) q[k] = H(k, 0) * u + H(k, 1) * v + H(k, 2);
     if (!(q[2] > 0)) return false;
-    const Vector2<double> m(q[0] / q[2], q[1] / q[2]);
+    const double inverse = 1 / q[2];
+    const Vector2<double> m(q[0] * inverse, q[1] * inverse);
     if (corner == 4) {
       out->middle = m;
     } else {

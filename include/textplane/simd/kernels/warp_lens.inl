@@ -20,27 +20,25 @@ TEXTPLANE_SIMD_INLINE int warp_lens_row(const simd::WarpLensArgs& a, const WarpV
 }
 
 TEXTPLANE_SIMD_ENTRY void warp_lens_block(const simd::WarpLensArgs& a, int* inside) noexcept {
-  // H to m - m0, around the block's middle.
-  const double* h = a.h;
+  LensFrame lens;
+  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens)) return;
+  // H to the pinhole image, around the block's middle.
+  const double *h = a.h, fx = lens.camera[0], fy = lens.camera[1], cx = lens.camera[2], cy = lens.camera[3];
   const float hx = static_cast<float>(a.x) + 0.5F * static_cast<float>(a.columns - 1),
               hy = static_cast<float>(a.y) + 0.5F * static_cast<float>(a.rows - 1);
-  const double u = static_cast<double>(hx), v = static_cast<double>(hy), x0 = a.lens->m0[0], y0 = a.lens->m0[1];
-  const double z = h[6] * u + h[7] * v + h[8];
-  const double g[9] = {h[0] - x0 * h[6],
-                       h[1] - x0 * h[7],
-                       h[0] * u + h[1] * v + h[2] - x0 * z,
-                       h[3] - y0 * h[6],
-                       h[4] - y0 * h[7],
-                       h[3] * u + h[4] * v + h[5] - y0 * z,
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy), z = h[6] * u + h[7] * v + h[8];
+  const double g[9] = {fx * h[0] + cx * h[6],
+                       fx * h[1] + cx * h[7],
+                       fx * (h[0] * u + h[1] * v + h[2]) + cx * z,
+                       fy * h[3] + cy * h[6],
+                       fy * h[4] + cy * h[7],
+                       fy * (h[3] * u + h[4] * v + h[5]) + cy * z,
                        h[6],
                        h[7],
                        z};
   simd::Warp8 warp;
-  LensFrame lens;
   SampleFrame f;
-  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens) ||
-      !make_warp_around(g, hx, hy, 0, 0, &warp))
-    return;
+  if (!make_warp_around(g, hx, hy, lens.ox, lens.oy, &warp)) return;
   make_sample_frame(a.source, lens.ox, lens.oy, &f);
   const WarpVectors vectors = broadcast_warp(warp);
   const bool paired = f.pairs != nullptr;

@@ -115,7 +115,7 @@ TEXTPLANE_SIMD_ENTRY void choose_tiles(const simd::ResidualArgs& a, const simd::
   if (f->lens.on) lens_turn(f->lens, &a0, &b0, &c0, &d0);
   const TileGuess guess = guess_tiles(host.x, host.y, host.n, a0, b0, c0, d0);
   const simd::Image8& t = a.target;
-  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->ox, f->oy, &f->tiles)) return;
+  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->warp.ox, f->warp.oy, &f->tiles)) return;
   SampleFrame inner = f->sample;
   inner.x_last = static_cast<float>(f->tiles.x_high);
   inner.y_last = static_cast<float>(f->tiles.y_high);

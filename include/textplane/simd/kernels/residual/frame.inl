@@ -35,35 +35,51 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
   return inside;
 }
 
+// The border of the same square, four points a side from a corner on, and which are not corners.
+constexpr float kBorderX[kMostLanes] = {-1, -.5F, 0, .5F, 1, 1, 1, 1, 1, .5F, 0, -.5F, -1, -1, -1, -1};
+constexpr float kBorderY[kMostLanes] = {-1, -1, -1, -1, -1, -.5F, 0, .5F, 1, 1, 1, 1, 1, .5F, 0, -.5F};
+constexpr float kBetweenCorners[kMostLanes] = {0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1};
+
+// Least and largest of the positions p[1] to p[kMostLanes] of a border, which bound those inside: the lens has an
+// inverse where it holds. What the border does between two points, a share of its second difference says. Writes p[0]
+// and p[kMostLanes + 1].
+TEXTPLANE_SIMD_INLINE void bound_border(float* p, float* low, float* high) noexcept {
+  p[0] = p[kMostLanes];
+  p[kMostLanes + 1] = p[1];
+  vf least = load(p + 1), most = least, bend = zero();
+  for (int k = 0; k < kMostLanes; k += kLanes) {
+    const vf here = load(p + 1 + k), turn = sub(add(load(p + k), load(p + 2 + k)), add(here, here));
+    least = min_(here, least);
+    most = max_(here, most);
+    bend = max_(mul(abs_(turn), load(kBetweenCorners + k)), bend);
+  }
+  const float margin = 0.5F * reduce_max(bend);
+  *low = reduce_min(least) - margin;
+  *high = reduce_max(most) + margin;
+}
+
 // Bounds of the patch's image positions behind a lens, from the border of its box, to the frame.
 TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
-  enum : int { kAll = (int{kBorder} + kMostLanes - 1) / kMostLanes * kMostLanes };
-  const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
-  float u[kAll], v[kAll], x[kAll], y[kAll];
-  for (int k = 0; k < kAll; ++k) {
-    const int side = k / kBorderSide % 4;
-    const float along = static_cast<float>(k % kBorderSide) * (2.0F / static_cast<float>(kBorderSide)) - 1.0F;
-    u[k] = ru * (side == 0 ? along : side == 1 ? 1.0F : side == 2 ? -along : -1.0F);
-    v[k] = rv * (side == 0 ? -1.0F : side == 1 ? along : side == 2 ? 1.0F : -along);
-  }
+  const vf ru = set1(bounds.x_high - f->warp.hx + 1e-3F), rv = set1(bounds.y_high - f->warp.hy + 1e-3F);
+  float x[kMostLanes + 2], y[kMostLanes + 2], *box = f->lens.box;
   const WarpVectors warp = broadcast_warp(f->warp);
-  float* box = f->lens.box;
   box[0] = box[1] = 1;
   box[2] = box[3] = -1;
-  for (int k = 0; k < kAll; k += kLanes) {
-    const vf pu = load(u + k), pv = load(v + k);
+  for (int k = 0; k < kMostLanes; k += kLanes) {
+    const vf pu = mul(ru, load(kBorderX + k)), pv = mul(rv, load(kBorderY + k));
     const vf z = madd(warp.g6, pu, madd(warp.g7, pv, warp.g8)), inverse = div(set1(1.0F), z);
     const vf rho = madd(set1(f->rho[0]), pu, madd(set1(f->rho[1]), pv, set1(f->rho[2])));
     const vf px = mul(madd(warp.g0, pu, madd(warp.g1, pv, warp.g2)), inverse),
              py = mul(madd(warp.g3, pu, madd(warp.g4, pv, warp.g5)), inverse);
     vf at_x, at_y;
     lens_or_outside(f->lens, px, py, &at_x, &at_y);
-    store(x + k, at_x);
-    store(y + k, at_y);
+    store(x + 1 + k, at_x);
+    store(y + 1 + k, at_y);
     const vm ahead = and_(gt(z, set1(1e-3F)), gt(rho, mul(set1(1e-6F), abs_(set1(f->rho[2])))));
     if (!all_true(and_(ahead, gt(at_x, set1(-1e8F))))) return;
   }
-  bound_border(x, y, box);
+  bound_border(x, &box[0], &box[2]);
+  bound_border(y, &box[1], &box[3]);
 }
 
 // H^-1 and theta^T H^-1, to the frame. (Arguments one by one: arrays would pass through memory.)
@@ -90,22 +106,13 @@ TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, do
   return true;
 }
 
-// The warp to the target, its lens, and how its image is read.
+// The warp to the target's pinhole image, and how the image is read.
 TEXTPLANE_SIMD_INLINE bool make_target(const simd::ResidualArgs& a, const double* G, float hx, float hy,
                                        ResidualFrame* f) noexcept {
-  f->lens.on = false;
-  if (!a.lens) {
-    if (!make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp)) return false;
-    f->ox = f->warp.ox;
-    f->oy = f->warp.oy;
-  } else {
-    if (!make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens) ||
-        !make_warp_around(G, hx, hy, 0, 0, &f->warp))
-      return false;
-    f->ox = f->lens.ox;
-    f->oy = f->lens.oy;
-  }
-  make_sample_frame(a.target, f->ox, f->oy, &f->sample);
+  if (f->lens.on ? !make_warp_around(G, hx, hy, f->lens.ox, f->lens.oy, &f->warp)
+                 : !make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp))
+    return false;
+  make_sample_frame(a.target, f->warp.ox, f->warp.oy, &f->sample);
   return true;
 }
 
@@ -128,9 +135,10 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
   const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
                mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
-  // Behind a lens the target is the plane z = 1, around m0.
-  const double fx = a.lens ? 1 : a.target_camera[0], fy = a.lens ? 1 : a.target_camera[1];
-  const double cx = a.lens ? -a.lens->m0[0] : a.target_camera[2], cy = a.lens ? -a.lens->m0[1] : a.target_camera[3];
+  f->lens.on = false;
+  if (a.lens && !make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens)) return false;
+  const double* camera = a.lens ? f->lens.camera : a.target_camera;
+  const double fx = camera[0], fy = camera[1], cx = camera[2], cy = camera[3];
   const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
   const double G[9] = {fx * (h0 * ifx) + cx * s6,
                        fx * (h1 * ify) + cx * s7,

@@ -9,8 +9,8 @@ TEXTPLANE_SIMD_INLINE bool template_origin(const ResidualFrame& f, double x_low,
   if (!(x_low > -60000.0 && y_low > -60000.0 && x_high - x_low < 60000.0 && y_high - y_low < 60000.0)) return false;
   *dx = static_cast<int>(x_low + 65536.0) - 65537;
   *dy = static_cast<int>(y_low + 65536.0) - 65537;
-  t->ox = f.ox + *dx;
-  t->oy = f.oy + *dy;
+  t->ox = f.warp.ox + *dx;
+  t->oy = f.warp.oy + *dy;
   return true;
 }
 TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd::TemplateArgs& t, double x_low,
@@ -18,8 +18,8 @@ TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd
   // One pixel clear of the borders where a tile would leave the image, so that no cell is clamped.
   const simd::Image8& target = t.target;
   return make_tiles(target.data, target.stride, target.width, target.height, t.ox, t.oy, tiles) && !target.pairs &&
-         x_low + f.ox >= 1 && y_low + f.oy >= 1 && x_high + f.ox < target.width - 16 &&
-         y_high + f.oy < target.height - 3;
+         x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
+         y_high + f.warp.oy < target.height - 3;
 }
 
 // The warp with divisor 1 at the centre, and an origin above and to the left of all pixels. False where not all are
@@ -58,7 +58,7 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   return true;
 }
 
-// The same behind a lens: the warp to rays, and the lens relative to that origin.
+// The same behind a lens: the warp to the pinhole image, and the lens relative to that origin.
 TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, const ResidualFrame& f,
                                               simd::TemplateArgs* t, LensFrame* lens, ImageTiles* tiles) noexcept {
   if (!f.inside) return false;
@@ -68,10 +68,13 @@ TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, cons
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) t->g[k] = static_cast<float>(static_cast<double>(f.warp.g[k]) * scale);
+  for (int k = 0; k < 8; ++k) {
+    const double w = static_cast<double>(f.warp.g[6 + k % 3]);
+    const double g = static_cast<double>(f.warp.g[k]) - (k < 3 ? dx * w : k < 6 ? dy * w : 0.0);
+    t->g[k] = static_cast<float>(g * scale);
+  }
   *lens = f.lens;
-  lens->ax -= static_cast<float>(dx);
-  lens->ay -= static_cast<float>(dy);
+  move_lens_origin(dx, dy, lens);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     float a = k[0] - k[2] * k[6], b = k[1] - k[2] * k[7], c = k[3] - k[5] * k[6], d = k[4] - k[5] * k[7];
