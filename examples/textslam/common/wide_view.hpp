@@ -23,13 +23,14 @@ inline bool is_wide(const CameraView& camera, int width, int height, const Param
 }
 
 /// The parameters for a camera. Motion in the image is that of 525 px focal length at 640x480: a wide view shows the
-/// same motion of the camera by fewer pixels.
+/// same motion of the camera by fewer pixels. Its corners are followed by smaller patches.
 inline Parameters at_view(Parameters parameters, const CameraView& camera, int width, int height) {
   if (!is_wide(camera, width, height, parameters)) return parameters;
   const double usual = 525 * std::sqrt(static_cast<double>(width) * height / (640.0 * 480.0));
   const double scale = std::min(1.0, focal_at(camera, Vec3::UnitZ()) / usual);
   parameters.keyframe_flow *= scale;
   parameters.init_view_flow *= scale;
+  parameters.klt_radius = std::min(parameters.klt_radius, parameters.wide_klt_radius);
   return parameters;
 }
 

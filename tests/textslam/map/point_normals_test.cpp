@@ -103,13 +103,15 @@ TEST(WideView, IsWhatReachesBeyond60Degrees) {
   EXPECT_TRUE(is_wide(CameraView(200, 200, 100, 239.5), 640, 480, p)) << "to one side";
 }
 
-TEST(WideView, MovesFewerPixels) {
+TEST(WideView, MovesFewerPixelsAndIsFollowedByFewer) {
   const Parameters p;
   const Parameters narrow = at_view(p, CameraView(400, 400, 319.5, 239.5), 640, 480);
   EXPECT_EQ(narrow.keyframe_flow, p.keyframe_flow);
+  EXPECT_EQ(narrow.klt_radius, p.klt_radius);
   const Parameters wide = at_view(p, {{210, 210, 319.5, 239.5}, &lens_support::fisheye()}, 640, 480);
   EXPECT_NEAR(wide.keyframe_flow, 0.4 * p.keyframe_flow, 1e-9);
   EXPECT_NEAR(wide.init_view_flow, 0.4 * p.init_view_flow, 1e-9);
+  EXPECT_LT(wide.klt_radius, narrow.klt_radius);
   const Parameters twice = at_view(p, {{420, 420, 639.5, 479.5}, &lens_support::fisheye()}, 1280, 960);
   EXPECT_NEAR(twice.keyframe_flow, wide.keyframe_flow, 1e-9);
 }
