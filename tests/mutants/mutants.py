@@ -81,6 +81,8 @@ MUTANTS = [
     ("simd/ops/x86_tiles.inl", "saturated_sub16(px, 14)", "saturated_sub16(px, 15)", ["simd/tiles_test"]),
     ("simd/ops/x86_tiles.inl", "*second = choose16(py, middle, lower);", "*second = choose16(py, middle, middle);", ["simd/tiles_test"]),
     ("simd/kernels/sample.inl", "groups = (fours | fours >> 1) &", "groups = fours &", ["simd/tiles_test"]),
+    ("simd/kernels/residual/frame.inl", "const float margin = 0.5F * reduce_max(bend);", "const float margin = 0.0F;", ["simd/lens_borders_test"]),
+    ("simd/kernels/lens.inl", "l->p0 += l->p2 * x + l->p1 * y;", "l->p0 += l->p2 * x;", ["simd/lens_kernels_test"]),
     ("simd/kernels/residual/template_model.inl", "x_high + f.warp.ox < target.width - 16", "x_high + f.warp.ox < target.width", ["simd/tiles_test"]),
     ("simd/kernels/residual/template.inl", "if (a.n - from < n) zero16(values, a.n - from, n);", "if (a.n - from + 1 < n) zero16(values, a.n - from + 1, n);", ["simd/template_kernels_test"]),
     ("simd/kernels/residual/batch.inl", "const vf scale_b = neg(div(inverse_s, max_(root, set1(1.0F))));", "const vf scale_b = div(inverse_s, max_(root, set1(1.0F)));", ["simd/batch_kernels_test"]),

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "simd/lens_cases.hpp"
 #include "simd/policy_support.hpp"
 #include "simd/residual_support.hpp"
 #include "textplane/photometry/candidates.hpp"
@@ -14,38 +15,8 @@ namespace tp = textplane;
 using namespace textplane_test;
 using Scene8 = Scene<std::uint8_t>;
 
-// Positions behind a lens are good to twice what they are without (simd/lens.hpp).
-constexpr double kLensFactor = 2;
-
-// A lens, and the zoom that lets the patch see as much of it as its fit needs terms for.
-struct Case {
-  const char* name;
-  tp::LensMap lens;
-  double zoom;
-  int terms;
-};
-template <class Model>
-tp::LensMap map_of(const std::vector<double>& coefficients) {
-  Eigen::Matrix<double, Model::kParameters, 1> p;
-  p.template head<4>() << 1, 1, 0, 0;
-  for (int k = 4; k < Model::kParameters; ++k) p[k] = coefficients[static_cast<std::size_t>(k - 4)];
-  return tp::LensMap(Model::from_parameters(p));
-}
-std::vector<Case> cases() {
-  return {
-      {"radial", map_of<tp::RadialTangential<double>>({-0.28, 0.07, 0, 0, 0}), 0.8, 3},
-      {"radial-tangential", map_of<tp::RadialTangential<double>>({-0.28, 0.07, 2e-3, -1e-3, 0.01}), 0.8, 3},
-      {"fisheye", map_of<tp::KannalaBrandt<double>>({0.01, -0.003, 0.002, -0.001}), 1.5, 6},
-      {"fisheye, wide", map_of<tp::KannalaBrandt<double>>({0.01, -0.003, 0.002, -0.001}), 0.3, tp::simd::kLensTerms},
-      {"rational", map_of<tp::Rational<double>>({0.4, 0.1, 1e-3, -5e-4, 0.01, 0.7, 0.15, 0.02}), 0.8, 6},
-      {"double sphere", map_of<tp::DoubleSphere<double>>({-0.2, 0.6}), 0.8, 6},
-      {"extended unified", map_of<tp::ExtendedUnified<double>>({0.6, 1.1}), 0.8, 6},
-      {"field of view", map_of<tp::Fov<double>>({0.9}), 0.8, 6},
-  };
-}
-
 TEST(LensKernels, EveryNumberOfPixels) {
-  for (const Case& c : cases())
+  for (const LensCase& c : lens_cases())
     for (int n = 1; n <= 65; ++n) {
       SCOPED_TRACE(std::string(c.name) + " " + std::to_string(n));
       const Scene8 scene(static_cast<unsigned>(n), n, &c.lens, c.zoom);
@@ -54,7 +25,7 @@ TEST(LensKernels, EveryNumberOfPixels) {
 }
 
 TEST(LensKernels, ManyPixels) {
-  for (const Case& c : cases())
+  for (const LensCase& c : lens_cases())
     for (const int n : {100, 256, 257, 2049, 4001}) {
       SCOPED_TRACE(std::string(c.name) + " " + std::to_string(n));
       const Scene8 scene(static_cast<unsigned>(n), n, &c.lens, c.zoom);
@@ -68,7 +39,7 @@ TEST(LensKernels, ManyPixels) {
 
 // A fit takes as many terms as it needs, and the kernels take the call.
 TEST(LensKernels, FitsAndTakesTheCalls) {
-  for (const Case& c : cases()) {
+  for (const LensCase& c : lens_cases()) {
     SCOPED_TRACE(c.name);
     const Scene8 scene(4, 600, &c.lens, c.zoom);
     const tp::PhotometricInput in = scene.input();
@@ -84,63 +55,11 @@ TEST(LensKernels, FitsAndTakesTheCalls) {
   }
 }
 
-// Part of the patch outside the image, masks, and trials on a given set.
-TEST(LensKernels, MasksAndBorders) {
-  Random random(11);
-  for (int trial = 0; trial < 80; ++trial) {
-    SCOPED_TRACE(trial);
-    const int n = trial % 3 == 0 ? random.integer(1, 40) : random.integer(41, 700);
-    const std::vector<Case> all = cases();
-    const Case& c = all[static_cast<std::size_t>(trial) % all.size()];
-    const Scene8 scene(static_cast<unsigned>(trial + 1), n, &c.lens, c.zoom);
-    const int x = random.integer(0, 150), y = random.integer(0, 110);
-    const int width = random.integer(2, 200 - x), height = random.integer(2, 160 - y);
-    tp::PhotometricInput in = scene.input();
-    in.target = tp::ImageView8(&in.target(x, y), width, height, in.target.stride());
-    in.target_camera.cx -= x;
-    in.target_camera.cy -= y;
-    std::vector<std::uint8_t> mask(static_cast<std::size_t>(n));
-    for (auto& m : mask) m = static_cast<std::uint8_t>(random.integer(0, 3) * 85);
-    if (trial % 4 != 0) in.patch.mask = mask.data();
-    tp::PhotometricOptions o = any_options(trial % 2 == 0);
-    o.min_visible = random.integer(0, 20);
-    compare_all(in, scene.theta, scene.T_t_h, o, kLensFactor);
-    compare_cost(in, scene.theta, scene.T_t_h, any_options(), mask.data());
-  }
-}
-
-// Where the lens folds over, what lies beyond has no pixel, on either path.
-TEST(LensKernels, BeyondTheFoldNothingIsVisible) {
-  const tp::LensMap folded = map_of<tp::RadialTangential<double>>({-0.8, 0, 0, 0, 0});
-  EXPECT_NEAR(folded.max_r2(), 1 / 2.4, 1e-5);
-  int lost = 0;
-  for (int trial = 0; trial < 20; ++trial) {
-    SCOPED_TRACE(trial);
-    Scene8 scene(static_cast<unsigned>(trial + 1), 300);
-    tp::PhotometricInput in = scene.input();
-    in.lens = &folded;
-    in.host_camera.fx = in.host_camera.fy = in.target_camera.fx = in.target_camera.fy = 60;
-    std::vector<std::uint8_t> mask(300);
-    for (std::size_t i = 0; i < 300; ++i) {
-      const tp::Vector3<double> m =
-          in.host_camera.unproject({static_cast<double>(scene.x[i]), static_cast<double>(scene.y[i])});
-      const tp::Vector3<double> q = scene.T_t_h.R * m + scene.T_t_h.t * scene.theta.dot(m);
-      const tp::Vector2<double> ray(q[0] / q[2], q[1] / q[2]), at = in.target_camera.pixel(folded.distort(ray));
-      const auto on_line = [](double v) { return std::abs(v - std::round(v)) < 2e-3; };
-      mask[i] = !on_line(at[0]) && !on_line(at[1]) && std::abs(ray.squaredNorm() - folded.max_r2()) > 1e-3;
-      lost += mask[i] && ray.squaredNorm() > folded.max_r2();
-    }
-    in.patch.mask = mask.data();
-    compare_all(in, scene.theta, scene.T_t_h, any_options(), kLensFactor);
-  }
-  EXPECT_GT(lost, 100);
-}
-
 TEST(LensKernels, HostGradients) {
   for (const tp::simd::Target target : testable_targets()) {
     const TargetScope scope(target);
     SCOPED_TRACE(tp::simd::to_string(target));
-    for (const Case& c : cases())
+    for (const LensCase& c : lens_cases())
       for (int n = 15; n <= 66; ++n) {
         SCOPED_TRACE(std::string(c.name) + " " + std::to_string(n));
         PolicyScene scene(static_cast<unsigned>(1 + n % 7), n < 66 ? n : 900, &c.lens, c.zoom);
@@ -177,7 +96,7 @@ TEST(LensKernels, HostGradients) {
 
 // Behind a lens, too, a patch of which all is visible, by far, has no pixel to be looked at alone.
 TEST(LensKernels, TemplatesInTheMiddleOfTheImageAreTaken) {
-  for (const Case& c : cases()) {
+  for (const LensCase& c : lens_cases()) {
     SCOPED_TRACE(c.name);
     PolicyScene scene(3, 100, &c.lens, c.zoom);
     for (std::size_t i = 0; i < 100; ++i) {
@@ -200,24 +119,8 @@ TEST(LensKernels, TemplatesInTheMiddleOfTheImageAreTaken) {
   }
 }
 
-TEST(LensKernels, EveryBorder) {
-  for (const tp::simd::Target target : testable_targets()) {
-    const TargetScope scope(target);
-    for (const Case& c : cases())
-      for (const double way : {-0.03, 0.03, -0.04, 0.04}) {
-        PolicyScene s(4, 60, &c.lens, c.zoom);
-        std::fill(s.x.begin(), s.x.end(), 97.0F);  // narrower than it is high
-        for (int i = 0; i < 40; ++i) {
-          s.T_t_h.t[std::abs(way) < 0.035 ? 0 : 1] += way;
-          ASSERT_EQ(tp::evaluate(s.request(), s.workspace).visible,
-                    tp::reference::evaluate(s.request(), s.workspace).visible);
-        }
-      }
-  }
-}
-
 TEST(LensKernels, Batches) {
-  for (const Case& c : cases()) {
+  for (const LensCase& c : lens_cases()) {
     SCOPED_TRACE(c.name);
     std::vector<Scene8> scenes;
     for (unsigned k = 0; k < 19; ++k) scenes.emplace_back(k + 1, 15 + static_cast<int>(k) * 7, &c.lens, c.zoom);
@@ -271,7 +174,7 @@ TEST(LensKernels, Candidates) {
   for (const tp::simd::Target target : testable_targets()) {
     const TargetScope scope(target);
     SCOPED_TRACE(tp::simd::to_string(target));
-    for (const Case& c : cases()) {
+    for (const LensCase& c : lens_cases()) {
       SCOPED_TRACE(c.name);
       PolicyScene scene(5, 200, &c.lens, c.zoom);
       const tp::PhotometricInput in = scene.policy_input();
