@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 184 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 20430fcae2566d2f
+// Hash of these files: e5b0480bd51b35be
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 20430fcae2566d2f"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 e5b0480bd51b35be"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -18933,7 +18933,7 @@ TEXTPLANE_SIMD_INLINE void collect_any(const HostPixels& host, const ResidualFra
   zero_tail(s.i + begin, n);
 }
 
-// The same behind a lens: rays, intensities, gradients by them.
+// The same behind a lens: pixels of its pinhole image, intensities, gradients by them.
 TEXTPLANE_SIMD_INLINE void collect_behind(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
                                           const ResidualArrays& s, SampleStrip* strip) noexcept {
   LensStrip lens;

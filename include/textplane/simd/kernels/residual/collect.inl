@@ -161,7 +161,7 @@ TEXTPLANE_SIMD_INLINE void collect_any(const HostPixels& host, const ResidualFra
   zero_tail(s.i + begin, n);
 }
 
-// The same behind a lens: rays, intensities, gradients by them.
+// The same behind a lens: pixels of its pinhole image, intensities, gradients by them.
 TEXTPLANE_SIMD_INLINE void collect_behind(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
                                           const ResidualArrays& s, SampleStrip* strip) noexcept {
   LensStrip lens;
