@@ -26,7 +26,7 @@ TESTS = [
     ("core/order", "core/order_test"), ("core/parse_number", "landmarks/icdar_test"),
     ("core/row_motion", "core/row_motion_test solver/rows/rows_test solver/rows/window_rows_test"),
     ("core/image_view", "core/image_view_test photometry/sample_test"),
-    ("core/cameras/lens_map", "core/lens_map_test"), ("core/cameras/lens", "core/camera_test core/camera_domains_test simd/lens_kernels_test"),
+    ("core/cameras/lens_map", "core/lens_map_test"), ("core/cameras/lens", "core/camera_test core/camera_domains_test simd/lens/lens_kernels_test"),
     ("core/cameras/radial", "core/radial_tangential_test"),
     ("core/cameras/any", "core/any_camera_test"), ("core/cameras", "core/camera_test core/camera_domains_test"),
     ("geometry/homography", "geometry/homography_test"), ("geometry/plane_fit", "geometry/plane_fit_test geometry/plane_fit_failure_test"),
@@ -39,7 +39,7 @@ TESTS = [
     ("features/", "features/align_test features/klt_test features/guard_pages_test features/options_test"),
     ("photometry/blur", "photometry/blur_test"), ("photometry/local_contrast", "photometry/local_contrast_test"),
     ("photometry/noise", "photometry/noise_test"),
-    ("photometry/lens/(lens_fit|text_batch)", "simd/lens_kernels_test simd/lens_borders_test solver/lens_test"), ("photometry/lens/warp", "simd/warp_lens_test"),
+    ("photometry/lens/(lens_fit|text_batch)", "simd/lens/lens_kernels_test simd/lens/lens_borders_test solver/lens_test"), ("photometry/lens/warp", "simd/lens/warp_lens_test"),
     ("photometry/(batch/)?text_batch", "simd/batch_kernels_test simd/batch_visibility_test solver/rows/batch_rows_test"),
     ("photometry/candidates", "simd/zncc_kernels_test solver/policy_test"), ("photometry/zncc", "photometry/zncc_test"),
     ("photometry/sample", "photometry/sample_test photometry/guard_pages_test"), ("photometry/pyramid", "photometry/pyramid_test"),
@@ -54,7 +54,7 @@ TESTS = [
                                       "photometry/residual_status_test"),
     ("photometry/", "photometry/residual_jacobian_test photometry/residual_status_test photometry/visible_set_test "
                     "simd/residual_visibility_test simd/residual_kernels_test photometry/residual_cost_test"),
-    ("simd/(kernels/)?warp_lens", "simd/warp_lens_test"), ("simd/(kernels/)?lens", "simd/lens_kernels_test simd/lens_borders_test simd/tiles_test"),
+    ("simd/(kernels/)?warp_lens", "simd/lens/warp_lens_test"), ("simd/(kernels/)?lens", "simd/lens/lens_kernels_test simd/lens/lens_borders_test simd/tiles_test"),
     ("simd/kernels/residual/batch|simd/batch", "simd/batch_kernels_test simd/batch_visibility_test simd/stated_bounds_test"),
     ("simd/kernels/residual/(esm|host_basis)|simd/esm", "simd/esm_kernels_test simd/template_kernels_test"),
     ("simd/(kernels/residual/)?hybrid", "simd/hybrid_kernels_test"),
@@ -65,7 +65,7 @@ TESTS = [
     ("simd/(kernels/)?fast", "simd/fast_kernels_test"), ("simd/(kernels/)?halve", "simd/halve_kernels_test"),
     ("simd/(kernels/)?warp", "simd/warp_kernels_test simd/warp_edges_test"),
     ("simd/kernels/residual/(collect|frame)", "simd/residual_visibility_test simd/residual_kernels_test simd/esm_kernels_test "
-                                              "simd/batch_kernels_test simd/tiles_test simd/lens_kernels_test simd/lens_borders_test"),
+                                              "simd/batch_kernels_test simd/tiles_test simd/lens/lens_kernels_test simd/lens/lens_borders_test"),
     ("simd/kernels/residual/centre", "simd/residual_kernels_test simd/esm_kernels_test"),
     ("simd/kernels/(sample|points)|simd/sample", "simd/sample_points_test simd/residual_kernels_test simd/residual_visibility_test "
                                            "simd/tiles_test"),

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "simd/lens_cases.hpp"
+#include "simd/lens/cases.hpp"
 #include "simd/policy_support.hpp"
 #include "simd/residual_support.hpp"
 #include "textplane/photometry/candidates.hpp"

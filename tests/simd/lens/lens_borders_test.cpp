@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "simd/lens_cases.hpp"
+#include "simd/lens/cases.hpp"
 #include "simd/policy_support.hpp"
 #include "simd/residual_support.hpp"
 
