@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 184 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: e5b0480bd51b35be
+// Hash of these files: ae21941a69486772
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 e5b0480bd51b35be"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 ae21941a69486772"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -17726,12 +17726,11 @@ struct ResidualFrame {
   SampleFrame sample;  // around (ox, oy)
   ImageTiles tiles;    // used where its guess is likely
   LensFrame lens;
-  float rho[3];       // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
-  double inverse[9];  // H^-1, row-major
-  double q[3];        // theta^T H^-1
-  double c, d, fx, fy, ifx,
-      ify;      // focal lengths of the target, behind a lens those of its pinhole image; their inverses
-  bool inside;  // if true, every pixel of the patch is visible
+  float rho[3];                   // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
+  double inverse[9];              // H^-1, row-major
+  double q[3];                    // theta^T H^-1
+  double c, d, fx, fy, ifx, ify;  // focal lengths of the target or of its pinhole image, and their inverses
+  bool inside;                    // if true, every pixel of the patch is visible
 };
 
 // The caller's scratch: one array of each.
@@ -41220,14 +41219,29 @@ TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd
          y_high + f.warp.oy < target.height - 3;
 }
 
+// The warp with divisor 1 at the centre, its ninth number.
+TEXTPLANE_SIMD_INLINE void unit_warp(const simd::Warp8& w, double* g) noexcept {
+  const double scale = 1.0 / static_cast<double>(w.g[8]);
+  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(w.g[k]) * scale;
+}
+// Such a warp with the origin moved by (dx, dy).
+TEXTPLANE_SIMD_INLINE void template_warp(const double* g, int dx, int dy, simd::TemplateArgs* t) noexcept {
+  for (int k = 0; k < 3; ++k) {
+    const double w = k < 2 ? g[6 + k] : 1.0;
+    t->g[k] = static_cast<float>(g[k] - dx * w);
+    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
+  }
+  t->g[6] = static_cast<float>(g[6]);
+  t->g[7] = static_cast<float>(g[7]);
+}
+
 // The warp with divisor 1 at the centre, and an origin above and to the left of all pixels. False where not all are
 // visible.
 TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
                                           ImageTiles* tiles) noexcept {
   if (!f.inside) return false;
   double g[8];
-  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
+  unit_warp(f.warp, g);
   const double u = static_cast<double>(m.bounds.x_high) - static_cast<double>(f.warp.hx),
                v = static_cast<double>(m.bounds.y_high) - static_cast<double>(f.warp.hy);
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
@@ -41241,13 +41255,7 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   }
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
-  for (int k = 0; k < 3; ++k) {
-    const double w = k < 2 ? g[6 + k] : 1.0;
-    t->g[k] = static_cast<float>(g[k] - dx * w);
-    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
-  }
-  t->g[6] = static_cast<float>(g[6]);
-  t->g[7] = static_cast<float>(g[7]);
+  template_warp(g, dx, dy, t);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     tiles->guess =
@@ -41265,12 +41273,9 @@ TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, cons
                x_high = static_cast<double>(box[2]), y_high = static_cast<double>(box[3]);
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
-  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) {
-    const double w = static_cast<double>(f.warp.g[6 + k % 3]);
-    const double g = static_cast<double>(f.warp.g[k]) - (k < 3 ? dx * w : k < 6 ? dy * w : 0.0);
-    t->g[k] = static_cast<float>(g * scale);
-  }
+  double g[8];
+  unit_warp(f.warp, g);
+  template_warp(g, dx, dy, t);
   *lens = f.lens;
   move_lens_origin(dx, dy, lens);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
@@ -41487,12 +41492,24 @@ TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd
          x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
          y_high + f.warp.oy < target.height - 3;
 }
+TEXTPLANE_SIMD_INLINE void unit_warp(const simd::Warp8& w, double* g) noexcept {
+  const double scale = 1.0 / static_cast<double>(w.g[8]);
+  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(w.g[k]) * scale;
+}
+TEXTPLANE_SIMD_INLINE void template_warp(const double* g, int dx, int dy, simd::TemplateArgs* t) noexcept {
+  for (int k = 0; k < 3; ++k) {
+    const double w = k < 2 ? g[6 + k] : 1.0;
+    t->g[k] = static_cast<float>(g[k] - dx * w);
+    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
+  }
+  t->g[6] = static_cast<float>(g[6]);
+  t->g[7] = static_cast<float>(g[7]);
+}
 TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
                                           ImageTiles* tiles) noexcept {
   if (!f.inside) return false;
   double g[8];
-  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
+  unit_warp(f.warp, g);
   const double u = static_cast<double>(m.bounds.x_high) - static_cast<double>(f.warp.hx),
                v = static_cast<double>(m.bounds.y_high) - static_cast<double>(f.warp.hy);
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
@@ -41506,13 +41523,7 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   }
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
-  for (int k = 0; k < 3; ++k) {
-    const double w = k < 2 ? g[6 + k] : 1.0;
-    t->g[k] = static_cast<float>(g[k] - dx * w);
-    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
-  }
-  t->g[6] = static_cast<float>(g[6]);
-  t->g[7] = static_cast<float>(g[7]);
+  template_warp(g, dx, dy, t);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     tiles->guess =
@@ -41528,12 +41539,9 @@ TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, cons
                x_high = static_cast<double>(box[2]), y_high = static_cast<double>(box[3]);
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
-  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) {
-    const double w = static_cast<double>(f.warp.g[6 + k % 3]);
-    const double g = static_cast<double>(f.warp.g[k]) - (k < 3 ? dx * w : k < 6 ? dy * w : 0.0);
-    t->g[k] = static_cast<float>(g * scale);
-  }
+  double g[8];
+  unit_warp(f.warp, g);
+  template_warp(g, dx, dy, t);
   *lens = f.lens;
   move_lens_origin(dx, dy, lens);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
@@ -41732,12 +41740,24 @@ TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd
          x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
          y_high + f.warp.oy < target.height - 3;
 }
+TEXTPLANE_SIMD_INLINE void unit_warp(const simd::Warp8& w, double* g) noexcept {
+  const double scale = 1.0 / static_cast<double>(w.g[8]);
+  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(w.g[k]) * scale;
+}
+TEXTPLANE_SIMD_INLINE void template_warp(const double* g, int dx, int dy, simd::TemplateArgs* t) noexcept {
+  for (int k = 0; k < 3; ++k) {
+    const double w = k < 2 ? g[6 + k] : 1.0;
+    t->g[k] = static_cast<float>(g[k] - dx * w);
+    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
+  }
+  t->g[6] = static_cast<float>(g[6]);
+  t->g[7] = static_cast<float>(g[7]);
+}
 TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
                                           ImageTiles* tiles) noexcept {
   if (!f.inside) return false;
   double g[8];
-  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
+  unit_warp(f.warp, g);
   const double u = static_cast<double>(m.bounds.x_high) - static_cast<double>(f.warp.hx),
                v = static_cast<double>(m.bounds.y_high) - static_cast<double>(f.warp.hy);
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
@@ -41751,13 +41771,7 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   }
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
-  for (int k = 0; k < 3; ++k) {
-    const double w = k < 2 ? g[6 + k] : 1.0;
-    t->g[k] = static_cast<float>(g[k] - dx * w);
-    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
-  }
-  t->g[6] = static_cast<float>(g[6]);
-  t->g[7] = static_cast<float>(g[7]);
+  template_warp(g, dx, dy, t);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     tiles->guess =
@@ -41773,12 +41787,9 @@ TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, cons
                x_high = static_cast<double>(box[2]), y_high = static_cast<double>(box[3]);
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
-  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) {
-    const double w = static_cast<double>(f.warp.g[6 + k % 3]);
-    const double g = static_cast<double>(f.warp.g[k]) - (k < 3 ? dx * w : k < 6 ? dy * w : 0.0);
-    t->g[k] = static_cast<float>(g * scale);
-  }
+  double g[8];
+  unit_warp(f.warp, g);
+  template_warp(g, dx, dy, t);
   *lens = f.lens;
   move_lens_origin(dx, dy, lens);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
@@ -41977,12 +41988,24 @@ TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd
          x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
          y_high + f.warp.oy < target.height - 3;
 }
+TEXTPLANE_SIMD_INLINE void unit_warp(const simd::Warp8& w, double* g) noexcept {
+  const double scale = 1.0 / static_cast<double>(w.g[8]);
+  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(w.g[k]) * scale;
+}
+TEXTPLANE_SIMD_INLINE void template_warp(const double* g, int dx, int dy, simd::TemplateArgs* t) noexcept {
+  for (int k = 0; k < 3; ++k) {
+    const double w = k < 2 ? g[6 + k] : 1.0;
+    t->g[k] = static_cast<float>(g[k] - dx * w);
+    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
+  }
+  t->g[6] = static_cast<float>(g[6]);
+  t->g[7] = static_cast<float>(g[7]);
+}
 TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
                                           ImageTiles* tiles) noexcept {
   if (!f.inside) return false;
   double g[8];
-  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
+  unit_warp(f.warp, g);
   const double u = static_cast<double>(m.bounds.x_high) - static_cast<double>(f.warp.hx),
                v = static_cast<double>(m.bounds.y_high) - static_cast<double>(f.warp.hy);
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
@@ -41996,13 +42019,7 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   }
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
-  for (int k = 0; k < 3; ++k) {
-    const double w = k < 2 ? g[6 + k] : 1.0;
-    t->g[k] = static_cast<float>(g[k] - dx * w);
-    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
-  }
-  t->g[6] = static_cast<float>(g[6]);
-  t->g[7] = static_cast<float>(g[7]);
+  template_warp(g, dx, dy, t);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     tiles->guess =
@@ -42018,12 +42035,9 @@ TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, cons
                x_high = static_cast<double>(box[2]), y_high = static_cast<double>(box[3]);
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
-  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) {
-    const double w = static_cast<double>(f.warp.g[6 + k % 3]);
-    const double g = static_cast<double>(f.warp.g[k]) - (k < 3 ? dx * w : k < 6 ? dy * w : 0.0);
-    t->g[k] = static_cast<float>(g * scale);
-  }
+  double g[8];
+  unit_warp(f.warp, g);
+  template_warp(g, dx, dy, t);
   *lens = f.lens;
   move_lens_origin(dx, dy, lens);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
@@ -42222,12 +42236,24 @@ TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd
          x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
          y_high + f.warp.oy < target.height - 3;
 }
+TEXTPLANE_SIMD_INLINE void unit_warp(const simd::Warp8& w, double* g) noexcept {
+  const double scale = 1.0 / static_cast<double>(w.g[8]);
+  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(w.g[k]) * scale;
+}
+TEXTPLANE_SIMD_INLINE void template_warp(const double* g, int dx, int dy, simd::TemplateArgs* t) noexcept {
+  for (int k = 0; k < 3; ++k) {
+    const double w = k < 2 ? g[6 + k] : 1.0;
+    t->g[k] = static_cast<float>(g[k] - dx * w);
+    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
+  }
+  t->g[6] = static_cast<float>(g[6]);
+  t->g[7] = static_cast<float>(g[7]);
+}
 TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
                                           ImageTiles* tiles) noexcept {
   if (!f.inside) return false;
   double g[8];
-  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
+  unit_warp(f.warp, g);
   const double u = static_cast<double>(m.bounds.x_high) - static_cast<double>(f.warp.hx),
                v = static_cast<double>(m.bounds.y_high) - static_cast<double>(f.warp.hy);
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
@@ -42241,13 +42267,7 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   }
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
-  for (int k = 0; k < 3; ++k) {
-    const double w = k < 2 ? g[6 + k] : 1.0;
-    t->g[k] = static_cast<float>(g[k] - dx * w);
-    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
-  }
-  t->g[6] = static_cast<float>(g[6]);
-  t->g[7] = static_cast<float>(g[7]);
+  template_warp(g, dx, dy, t);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     tiles->guess =
@@ -42263,12 +42283,9 @@ TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, cons
                x_high = static_cast<double>(box[2]), y_high = static_cast<double>(box[3]);
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
-  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) {
-    const double w = static_cast<double>(f.warp.g[6 + k % 3]);
-    const double g = static_cast<double>(f.warp.g[k]) - (k < 3 ? dx * w : k < 6 ? dy * w : 0.0);
-    t->g[k] = static_cast<float>(g * scale);
-  }
+  double g[8];
+  unit_warp(f.warp, g);
+  template_warp(g, dx, dy, t);
   *lens = f.lens;
   move_lens_origin(dx, dy, lens);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
@@ -42467,12 +42484,24 @@ TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd
          x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
          y_high + f.warp.oy < target.height - 3;
 }
+TEXTPLANE_SIMD_INLINE void unit_warp(const simd::Warp8& w, double* g) noexcept {
+  const double scale = 1.0 / static_cast<double>(w.g[8]);
+  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(w.g[k]) * scale;
+}
+TEXTPLANE_SIMD_INLINE void template_warp(const double* g, int dx, int dy, simd::TemplateArgs* t) noexcept {
+  for (int k = 0; k < 3; ++k) {
+    const double w = k < 2 ? g[6 + k] : 1.0;
+    t->g[k] = static_cast<float>(g[k] - dx * w);
+    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
+  }
+  t->g[6] = static_cast<float>(g[6]);
+  t->g[7] = static_cast<float>(g[7]);
+}
 TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
                                           ImageTiles* tiles) noexcept {
   if (!f.inside) return false;
   double g[8];
-  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
+  unit_warp(f.warp, g);
   const double u = static_cast<double>(m.bounds.x_high) - static_cast<double>(f.warp.hx),
                v = static_cast<double>(m.bounds.y_high) - static_cast<double>(f.warp.hy);
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
@@ -42486,13 +42515,7 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   }
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
-  for (int k = 0; k < 3; ++k) {
-    const double w = k < 2 ? g[6 + k] : 1.0;
-    t->g[k] = static_cast<float>(g[k] - dx * w);
-    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
-  }
-  t->g[6] = static_cast<float>(g[6]);
-  t->g[7] = static_cast<float>(g[7]);
+  template_warp(g, dx, dy, t);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     tiles->guess =
@@ -42508,12 +42531,9 @@ TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, cons
                x_high = static_cast<double>(box[2]), y_high = static_cast<double>(box[3]);
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
-  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) {
-    const double w = static_cast<double>(f.warp.g[6 + k % 3]);
-    const double g = static_cast<double>(f.warp.g[k]) - (k < 3 ? dx * w : k < 6 ? dy * w : 0.0);
-    t->g[k] = static_cast<float>(g * scale);
-  }
+  double g[8];
+  unit_warp(f.warp, g);
+  template_warp(g, dx, dy, t);
   *lens = f.lens;
   move_lens_origin(dx, dy, lens);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {

@@ -93,12 +93,11 @@ struct ResidualFrame {
   SampleFrame sample;  // around (ox, oy)
   ImageTiles tiles;    // used where its guess is likely
   LensFrame lens;
-  float rho[3];       // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
-  double inverse[9];  // H^-1, row-major
-  double q[3];        // theta^T H^-1
-  double c, d, fx, fy, ifx,
-      ify;      // focal lengths of the target, behind a lens those of its pinhole image; their inverses
-  bool inside;  // if true, every pixel of the patch is visible
+  float rho[3];                   // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
+  double inverse[9];              // H^-1, row-major
+  double q[3];                    // theta^T H^-1
+  double c, d, fx, fy, ifx, ify;  // focal lengths of the target or of its pinhole image, and their inverses
+  bool inside;                    // if true, every pixel of the patch is visible
 };
 
 // The caller's scratch: one array of each.

@@ -92,6 +92,7 @@ TEST(LensBorders, BulgingBorders) {
       scene.y[i] = static_cast<float>(20 + i / 133);
     }
     tp::PhotometricInput in = scene.input();
+    tp::PhotometricWorkspace workspace(400);
     double top = 1e9;
     for (std::size_t i = 0; i < 400; ++i) {
       const tp::Vector3<double> m =
@@ -105,7 +106,6 @@ TEST(LensBorders, BulgingBorders) {
       SCOPED_TRACE(tp::simd::to_string(target));
       for (int step = 1; step < 60; ++step) {
         in.target_camera.cy = cy - 0.005 * step;
-        tp::PhotometricWorkspace workspace(400);
         const tp::ResidualRequest request{in, {0, 0, 1}, tp::SE3d(), tp::PhotometricOptions()};
         const int visible = tp::reference::evaluate(request, workspace).visible;
         ASSERT_EQ(tp::evaluate(request, workspace).visible, visible);

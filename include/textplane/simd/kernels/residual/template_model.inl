@@ -22,14 +22,29 @@ TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd
          y_high + f.warp.oy < target.height - 3;
 }
 
+// The warp with divisor 1 at the centre, its ninth number.
+TEXTPLANE_SIMD_INLINE void unit_warp(const simd::Warp8& w, double* g) noexcept {
+  const double scale = 1.0 / static_cast<double>(w.g[8]);
+  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(w.g[k]) * scale;
+}
+// Such a warp with the origin moved by (dx, dy).
+TEXTPLANE_SIMD_INLINE void template_warp(const double* g, int dx, int dy, simd::TemplateArgs* t) noexcept {
+  for (int k = 0; k < 3; ++k) {
+    const double w = k < 2 ? g[6 + k] : 1.0;
+    t->g[k] = static_cast<float>(g[k] - dx * w);
+    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
+  }
+  t->g[6] = static_cast<float>(g[6]);
+  t->g[7] = static_cast<float>(g[7]);
+}
+
 // The warp with divisor 1 at the centre, and an origin above and to the left of all pixels. False where not all are
 // visible.
 TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
                                           ImageTiles* tiles) noexcept {
   if (!f.inside) return false;
   double g[8];
-  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
+  unit_warp(f.warp, g);
   const double u = static_cast<double>(m.bounds.x_high) - static_cast<double>(f.warp.hx),
                v = static_cast<double>(m.bounds.y_high) - static_cast<double>(f.warp.hy);
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
@@ -43,13 +58,7 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   }
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
-  for (int k = 0; k < 3; ++k) {
-    const double w = k < 2 ? g[6 + k] : 1.0;
-    t->g[k] = static_cast<float>(g[k] - dx * w);
-    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
-  }
-  t->g[6] = static_cast<float>(g[6]);
-  t->g[7] = static_cast<float>(g[7]);
+  template_warp(g, dx, dy, t);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     tiles->guess =
@@ -67,12 +76,9 @@ TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, cons
                x_high = static_cast<double>(box[2]), y_high = static_cast<double>(box[3]);
   int dx, dy;
   if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
-  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
-  for (int k = 0; k < 8; ++k) {
-    const double w = static_cast<double>(f.warp.g[6 + k % 3]);
-    const double g = static_cast<double>(f.warp.g[k]) - (k < 3 ? dx * w : k < 6 ? dy * w : 0.0);
-    t->g[k] = static_cast<float>(g * scale);
-  }
+  double g[8];
+  unit_warp(f.warp, g);
+  template_warp(g, dx, dy, t);
   *lens = f.lens;
   move_lens_origin(dx, dy, lens);
   if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
